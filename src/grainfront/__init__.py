@@ -1,0 +1,1 @@
+"""Reproducible packings of irregular grains by the optimised advancing front method."""

@@ -1,0 +1,54 @@
+"""Domain and packing: the plain data types that the stages after `shapes` hand on."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from grainfront.polygons import Polygons
+
+
+@dataclass(frozen=True)
+class Rectangle:
+    """A rectangular domain, [x_min, x_max] × [y_min, y_max], in the scene's length unit."""
+
+    x_min: float
+    y_min: float
+    x_max: float
+    y_max: float
+
+    @property
+    def width(self) -> float:
+        return self.x_max - self.x_min
+
+    @property
+    def height(self) -> float:
+        return self.y_max - self.y_min
+
+    @property
+    def area(self) -> float:
+        return self.width * self.height
+
+
+@dataclass(frozen=True)
+class Packing:
+    """Placed particles, in order of placement; arrays have shape (n_particles,).
+
+    Lengths are in the scene's unit, `orientation` in degrees in [0, 180). `x`, `y` are the centroids
+    of the hulls. `polygons` are the hulls as packed or, after the replacement, the outlines; `area`
+    and `circumradius` (about (x, y)) are theirs. `shape` indexes the shape database. `left_over` counts the
+    particles that were drawn but found no place at the top (section 2 of the design of record).
+    """
+
+    domain: Rectangle
+    polygons: Polygons
+    x: np.ndarray
+    y: np.ndarray
+    size: np.ndarray
+    aspect_ratio: np.ndarray
+    orientation: np.ndarray
+    area: np.ndarray
+    circumradius: np.ndarray
+    shape: np.ndarray
+    left_over: int

@@ -1,0 +1,48 @@
+"""Ragged polygons: the plain data type that every stage hands on."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import NamedTuple
+
+import numpy as np
+
+
+class Polygons(NamedTuple):
+    """Simple polygons, counter-clockwise, the first node not repeated at the end.
+
+    Polygon i has the nodes ``nodes[offsets[i]:offsets[i + 1]]``; `nodes` is float64 of shape
+    (n_nodes, 2), `offsets` int64 of shape (n_polygons + 1,).
+    """
+
+    nodes: np.ndarray
+    offsets: np.ndarray
+
+    @classmethod
+    def of(cls, polygons: Iterable[np.ndarray]) -> Polygons:
+        """Join single polygons, each of shape (n, 2)."""
+        parts = [np.asarray(p, dtype=np.float64) for p in polygons]
+        offsets = np.zeros(len(parts) + 1, dtype=np.int64)
+        np.cumsum([len(p) for p in parts], out=offsets[1:])
+        return cls(np.concatenate(parts) if parts else np.empty((0, 2)), offsets)
+
+    @property
+    def count(self) -> int:
+        """How many polygons there are (`len` of a named tuple counts its fields)."""
+        return self.offsets.size - 1
+
+    @property
+    def node_counts(self) -> np.ndarray:
+        """Nodes of each polygon, shape (n_polygons,)."""
+        return np.diff(self.offsets)
+
+    def polygon(self, i: int) -> np.ndarray:
+        """Nodes of polygon i, shape (n, 2), a view."""
+        return self.nodes[self.offsets[i] : self.offsets[i + 1]]
+
+    def to_shapely(self) -> np.ndarray:
+        """Shapely polygons, shape (n_polygons,)."""
+        import shapely
+
+        rings = np.repeat(np.arange(self.count), self.node_counts)
+        return shapely.polygons(shapely.linearrings(self.nodes, indices=rings))
