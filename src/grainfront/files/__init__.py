@@ -1,0 +1,1 @@
+"""Result datasets, VTK files and how they reach the disk."""

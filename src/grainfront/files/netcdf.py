@@ -1,0 +1,157 @@
+"""The result datasets as NetCDF files: shapes, packings, contacts and statistics.
+
+Polygons are a geometry container of the CF conventions (CF-1.9, section 7.5), rings closed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from grainfront.errors import InputError
+from grainfront.files.contract import PACKING, SHAPES
+from grainfront.files.dataset import Path, read_dataset, write_dataset
+from grainfront.particles import Packing, Rectangle
+from grainfront.polygons import Polygons
+
+if TYPE_CHECKING:
+    from grainfront.shapes.database import ShapeDatabase
+
+PARTICLE_FIELDS = (
+    "x", "y", "size", "aspect_ratio", "orientation", "area", "circumradius", "shape"
+)  # fmt: skip
+
+
+def write_packing(
+    path: Path,
+    packing: Packing,
+    *,
+    scene_text: str,
+    seed: int,
+    length_unit: str,
+    volume_fraction: float,
+) -> None:
+    """Write hulls as packed, or the outlines that replaced them; equal input gives equal bytes.
+
+    Errors: InputError where an array breaks the contract or the folder cannot be written to.
+    """
+    fields = {name: getattr(packing, name) for name in PARTICLE_FIELDS}
+    attributes = {
+        "scene": scene_text,
+        "seed": seed,
+        "length_unit": length_unit,
+        "volume_fraction": float(volume_fraction),
+        "domain": _to_wkt(packing.domain),
+        "left_over": packing.left_over,
+    }
+    write_dataset(path, PACKING, _closed_rings(packing.polygons) | fields, attributes)
+
+
+def read_packing(path: Path) -> Packing:
+    """The packing at `path`, bit for bit as written.
+
+    Errors: InputError where the file is missing, cut off, no NetCDF or breaks the contract.
+    """
+    arrays, attributes = read_dataset(path, PACKING)
+    return Packing(
+        domain=_from_wkt(path, attributes["domain"]),
+        polygons=_open_rings(path, arrays),
+        left_over=attributes["left_over"],
+        **{name: arrays[name] for name in PARTICLE_FIELDS},
+    )
+
+
+def write_shapes(
+    path: Path, database: ShapeDatabase, *, source: str, seed: int, source_unit: str
+) -> None:
+    """Write standardised shapes; `source` says where they come from, in lengths of `source_unit`.
+
+    Errors: InputError where an array breaks the contract or the folder cannot be written to.
+    """
+    # The rings of the file are closed: every earlier outline moves the nodes by one.
+    owner = np.repeat(np.arange(database.hulls.count), database.hulls.node_counts)
+    hulls = {
+        "hull_node_count": database.hulls.node_counts,
+        "hull_node": database.hull_nodes + owner,
+    }
+    counts = {f"count_{name}": count for name, count in database.counts.items()}
+    attributes = {"source": source, "seed": seed, "source_unit": source_unit, **counts}
+    arrays = _closed_rings(database.outlines) | hulls | database.descriptors
+    write_dataset(path, SHAPES, arrays, attributes)
+
+
+def read_shapes(path: Path) -> ShapeDatabase:
+    """The shape database at `path`, bit for bit as written.
+
+    Errors: InputError where the file is missing, cut off, no NetCDF or breaks the contract.
+    """
+    arrays, attributes = read_dataset(path, SHAPES)
+    outlines = _open_rings(path, arrays)
+    counts = arrays.pop("hull_node_count")
+    nodes = arrays.pop("hull_node") - np.repeat(np.arange(counts.size), counts)
+    if nodes.size != counts.sum() or not _within(nodes, len(outlines.nodes)):
+        raise InputError(f"{path}: hull_node does not index the nodes of the outlines")
+    geometry = ("node_count", "node_x", "node_y")
+    return ShapeDatabase(
+        outlines=outlines,
+        hulls=Polygons(outlines.nodes[nodes], _offsets(counts)),
+        hull_nodes=nodes,
+        descriptors={name: a for name, a in arrays.items() if name not in geometry},
+        counts={
+            name.removeprefix("count_"): count
+            for name, count in attributes.items()
+            if name.startswith("count_")
+        },
+    )
+
+
+def read_attributes(path: Path) -> Mapping[str, Any]:
+    """Global attributes of the packing at `path`: scene, seed, length_unit, volume_fraction …
+
+    Errors: InputError where the file is missing, cut off, no NetCDF or breaks the contract.
+    """
+    return read_dataset(path, PACKING)[1]
+
+
+def _closed_rings(polygons: Polygons) -> dict[str, np.ndarray]:
+    """Node count and coordinates with each first node repeated, which GDAL needs."""
+    order = np.insert(np.arange(len(polygons.nodes)), polygons.offsets[1:], polygons.offsets[:-1])
+    x, y = polygons.nodes[order].T
+    return {"node_count": polygons.node_counts + 1, "node_x": x, "node_y": y}
+
+
+def _open_rings(path: Path, arrays: Mapping[str, np.ndarray]) -> Polygons:
+    closed = _offsets(arrays["node_count"])
+    if closed[-1] != arrays["node_x"].size or (arrays["node_count"] < 4).any():
+        raise InputError(
+            f"{path}: node_count must hold four nodes or more a ring and add up to the "
+            f"{arrays['node_x'].size} nodes of the file"
+        )
+    nodes = np.stack([arrays["node_x"], arrays["node_y"]], axis=1)
+    return Polygons(np.delete(nodes, closed[1:] - 1, axis=0), closed - np.arange(closed.size))
+
+
+def _offsets(counts: np.ndarray) -> np.ndarray:
+    return np.concatenate([[0], np.cumsum(counts)]).astype(np.int64)
+
+
+def _within(index: np.ndarray, size: int) -> bool:
+    return bool(((index >= 0) & (index < size)).all())
+
+
+def _to_wkt(domain: Rectangle) -> str:
+    """The domain as WKT; Python's shortest digits give every float back exactly."""
+    x0, y0, x1, y1 = (float(v) for v in (domain.x_min, domain.y_min, domain.x_max, domain.y_max))
+    ring = ((x0, y0), (x1, y0), (x1, y1), (x0, y1), (x0, y0))
+    return f"POLYGON (({', '.join(f'{x!r} {y!r}' for x, y in ring)}))"
+
+
+def _from_wkt(path: Path, text: str) -> Rectangle:
+    import shapely
+
+    try:
+        return Rectangle(*shapely.from_wkt(text).bounds)
+    except shapely.GEOSException as error:
+        raise InputError(f"{path}: the domain is no WKT polygon ({error})") from error

@@ -1,0 +1,138 @@
+"""JSON Schema and CDL header of every result dataset, made from their contracts.
+
+``python -m grainfront.files.schema FOLDER`` says which files in the folder have drifted from the
+contracts; with ``--fix`` it writes them.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from grainfront.files.atomic import write_text
+from grainfront.files.contract import CONTRACTS, CONVENTIONS, Contract, Variable
+
+Json = dict[str, Any]
+
+
+@cache
+def json_schema(contract: Contract) -> Json:
+    """The JSON Schema of a dataset's header, as `files.dataset.header` gives it."""
+    variables = {name: _variable_schema(v) for name, v in contract.variables.items()}
+    fixed = {"Conventions": {"const": CONVENTIONS}, "title": {"const": contract.title}}
+    free = {name: {"type": a.type, "description": a.description}
+            for name, a in contract.attributes.items()}  # fmt: skip
+    groups = {f"^{name[:-1]}": free.pop(name) for name in list(free) if name.endswith("*")}
+    dimensions = {name: {"type": "integer", "minimum": 0, "description": description}
+                  for name, description in contract.dimensions.items()}  # fmt: skip
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": f"Header of {contract.name}.nc",
+        "description": contract.title,
+        **_closed(
+            {
+                "dimensions": _closed(dimensions),
+                "variables": _closed(variables),
+                "attributes": _closed({**fixed, **free}, groups),
+            }
+        ),
+    }
+
+
+def _variable_schema(variable: Variable) -> Json:
+    attributes: Json = {"long_name": {"const": variable.long_name}}
+    if variable.units:
+        attributes["units"] = _units_schema(variable.units)
+    attributes |= {name: {"const": value} for name, value in variable.attributes.items()}
+    return _closed(
+        {
+            "type": {"const": variable.type},
+            "dimensions": {"const": list(variable.dimensions)},
+            "attributes": _closed(attributes),
+        }
+    )
+
+
+def _units_schema(units: str) -> Json:
+    if "{" not in units:
+        return {"const": units}
+    template, _, power = units.partition("^")
+    pattern = rf"^.+\^{power}$" if power else "^.+$"
+    attribute = template.strip("{}")
+    meaning = f"the global attribute {attribute}" + (f", to the power {power}" if power else "")
+    return {"type": "string", "pattern": pattern, "description": meaning}
+
+
+def _closed(properties: Json, groups: Json | None = None) -> Json:
+    """An object with all of these properties and no other."""
+    schema = {
+        "type": "object",
+        "properties": properties,
+        "required": list(properties),
+        "additionalProperties": False,
+    }
+    return schema | ({"patternProperties": groups} if groups else {})
+
+
+def cdl(contract: Contract) -> str:
+    """The header in the common data language of NetCDF, as ``ncdump -h`` prints it.
+
+    What differs from file to file stands in angle brackets.
+    """
+    lines = [f"netcdf {contract.name} {{", "dimensions:"]
+    lines += [f"\t{name} = <{text}> ;" for name, text in contract.dimensions.items()]
+    lines += ["variables:"]
+    for name, variable in contract.variables.items():
+        shape = f"({', '.join(variable.dimensions)})" if variable.dimensions else ""
+        lines.append(f"\t{variable.type} {name}{shape} ;")
+        attributes = {"long_name": variable.long_name, "units": variable.units}
+        for key, value in (attributes | variable.attributes).items():
+            if value:
+                text = value.replace("{", "<").replace("}", ">")
+                lines.append(f'\t\t{name}:{key} = "{text}" ;')
+    lines += ["", "// global attributes:"]
+    lines += [f'\t\t:Conventions = "{CONVENTIONS}" ;', f'\t\t:title = "{contract.title}" ;']
+    for name, attribute in contract.attributes.items():
+        quote = '"' if attribute.type == "string" else ""
+        lines.append(f"\t\t:{name} = {quote}<{attribute.description}>{quote} ;")
+    return "\n".join([*lines, "}", ""])
+
+
+def documents() -> dict[str, str]:
+    """File name and text of every schema and every CDL header."""
+    texts = {}
+    for contract in CONTRACTS:
+        schema = json.dumps(json_schema(contract), indent=2, ensure_ascii=False)
+        texts[f"{contract.name}.schema.json"] = f"{schema}\n"
+        texts[f"{contract.name}.cdl"] = cdl(contract)
+    return texts
+
+
+def drifted(folder: Path) -> list[str]:
+    """Names of the documents that `folder` lacks or holds with another text."""
+    return [
+        name
+        for name, text in documents().items()
+        if not (folder / name).is_file() or (folder / name).read_text(encoding="utf-8") != text
+    ]
+
+
+def main() -> int:
+    """Compare (or with --fix, write) the documents; 1 if they had drifted and were not fixed."""
+    parser = argparse.ArgumentParser(description=documents.__doc__)
+    parser.add_argument("folder", type=Path, help="where the schemas are kept")
+    parser.add_argument("--fix", action="store_true", help="write what has drifted")
+    arguments = parser.parse_args()
+    names = drifted(arguments.folder)
+    for name in names:
+        print(f"{name}: {'written' if arguments.fix else 'differs from the contract'}")
+        if arguments.fix:
+            write_text(arguments.folder / name, documents()[name])
+    return int(bool(names) and not arguments.fix)
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
