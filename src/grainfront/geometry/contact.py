@@ -1,0 +1,129 @@
+"""Where a new particle touches two neighbours, found on the no-fit polygons without building them.
+
+The centre of a particle N that slides round A moves on the boundary of the no-fit polygon A ⊕ −N
+(Du et al. 2023, section 3). The boundaries of A ⊕ −N and B ⊕ −N leave their common tangent
+downwards; both are walked edge by edge until they cross. Coordinates of N are relative to its centre.
+"""
+
+from __future__ import annotations
+
+from grainfront.geometry.support import after, before, climb, cross
+from grainfront.jit import inlined
+
+# Rounding turns an edge by about 1e-16; two edges that differ by less than this are parallel.
+PARALLEL = 1e-12
+
+
+@inlined
+def clockwise_edge(nodes, a0, na, i, trial, t0, nt, j):
+    """The edge of A ⊕ −N that leaves (vertex i of A, vertex j of N) clockwise: (ex, ey, i, j)."""
+    m = before(i, na)
+    n = before(j, nt)
+    ax = nodes[a0 + m, 0] - nodes[a0 + i, 0]
+    ay = nodes[a0 + m, 1] - nodes[a0 + i, 1]
+    bx = trial[t0 + j, 0] - trial[t0 + n, 0]
+    by = trial[t0 + j, 1] - trial[t0 + n, 1]
+    if cross(bx, by, ax, ay) > 0.0:
+        return ax, ay, m, j
+    return bx, by, i, n
+
+
+@inlined
+def counterclockwise_edge(nodes, a0, na, i, trial, t0, nt, j):
+    """The edge of A ⊕ −N that leaves (vertex i of A, vertex j of N) counter-clockwise."""
+    m = after(i, na)
+    n = after(j, nt)
+    ax = nodes[a0 + m, 0] - nodes[a0 + i, 0]
+    ay = nodes[a0 + m, 1] - nodes[a0 + i, 1]
+    bx = trial[t0 + j, 0] - trial[t0 + n, 0]
+    by = trial[t0 + j, 1] - trial[t0 + n, 1]
+    if cross(ax, ay, bx, by) > 0.0:
+        return ax, ay, m, j
+    return bx, by, i, n
+
+
+@inlined
+def contact_with_polygons(nodes, a0, na, ia, b0, nb, ib, trial, t0, nt, hint):
+    """Centre of N in contact with A and B, to the left of A → B: (found, x, y, support vertex).
+
+    `ia`, `ib` are the vertices of their common tangent; `hint` is any vertex of N, best one close to
+    the support vertex that is returned.
+    """
+    pax = nodes[a0 + ia, 0]
+    pay = nodes[a0 + ia, 1]
+    pbx = nodes[b0 + ib, 0]
+    pby = nodes[b0 + ib, 1]
+    ux = pbx - pax
+    uy = pby - pay
+    j = climb(trial, t0, nt, hint, uy, -ux)
+    pax -= trial[t0 + j, 0]
+    pay -= trial[t0 + j, 1]
+    pbx -= trial[t0 + j, 0]
+    pby -= trial[t0 + j, 1]
+    eax, eay, ia, ja = clockwise_edge(nodes, a0, na, ia, trial, t0, nt, j)
+    ebx, eby, ib, jb = counterclockwise_edge(nodes, b0, nb, ib, trial, t0, nt, j)
+    depth_a = -cross(ux, uy, eax, eay)
+    depth_b = -cross(ux, uy, ebx, eby)
+    for _ in range(2 * (na + nb + nt)):
+        turn = cross(eax, eay, ebx, eby)
+        if turn >= 0.0:
+            along = eax * ebx + eay * eby
+            if along >= 0.0 or turn > -PARALLEL * along:
+                return False, 0.0, 0.0, j  # the boundaries diverge without having crossed
+        if depth_a <= depth_b:
+            endx = pax + eax
+            endy = pay + eay
+            if cross(ebx, eby, endx - pbx, endy - pby) > 0.0:
+                break
+            pax, pay = endx, endy
+            eax, eay, ia, ja = clockwise_edge(nodes, a0, na, ia, trial, t0, nt, ja)
+            down = -cross(ux, uy, eax, eay)
+            if down < -PARALLEL * abs(ux * eax + uy * eay):
+                return False, 0.0, 0.0, j  # the lower end of A ⊕ −N
+            depth_a += down
+        else:
+            endx = pbx + ebx
+            endy = pby + eby
+            if cross(eax, eay, endx - pax, endy - pay) < 0.0:
+                break
+            pbx, pby = endx, endy
+            ebx, eby, ib, jb = counterclockwise_edge(nodes, b0, nb, ib, trial, t0, nt, jb)
+            down = -cross(ux, uy, ebx, eby)
+            if down < -PARALLEL * abs(ux * ebx + uy * eby):
+                return False, 0.0, 0.0, j  # the lower end of B ⊕ −N
+            depth_b += down
+    t = cross(pbx - pax, pby - pay, ebx, eby) / cross(eax, eay, ebx, eby)
+    t = min(max(t, 0.0), 1.0)
+    return True, pax + t * eax, pay + t * eay, j
+
+
+@inlined
+def contact_with_wall(nodes, a0, na, clockwise, nx, ny, level, trial, t0, nt):
+    """Centre of N in contact with A and with a wall: (found, x, y).
+
+    N's centre touches the wall where n · centre = `level`, n = (nx, ny) pointing into the domain.
+    The boundary of A ⊕ −N is walked from its point farthest from the wall, clockwise where the wall
+    follows A along the front, counter-clockwise where it precedes A.
+    """
+    i = climb(nodes, a0, na, 0, nx, ny)
+    j = climb(trial, t0, nt, 0, -nx, -ny)
+    px = nodes[a0 + i, 0] - trial[t0 + j, 0]
+    py = nodes[a0 + i, 1] - trial[t0 + j, 1]
+    above = nx * px + ny * py - level
+    if above < 0.0:
+        return False, 0.0, 0.0
+    for _ in range(na + nt):
+        if clockwise:
+            ex, ey, i, j = clockwise_edge(nodes, a0, na, i, trial, t0, nt, j)
+        else:
+            ex, ey, i, j = counterclockwise_edge(nodes, a0, na, i, trial, t0, nt, j)
+        rise = nx * ex + ny * ey
+        if above + rise < 0.0:
+            t = min(above / -rise, 1.0)
+            return True, px + t * ex, py + t * ey
+        if rise > PARALLEL * abs(nx * ey - ny * ex):
+            return False, 0.0, 0.0  # A ⊕ −N ends before the wall
+        px += ex
+        py += ey
+        above += rise
+    return False, 0.0, 0.0

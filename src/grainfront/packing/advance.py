@@ -1,0 +1,97 @@
+"""The packing loop: the optimised advancing front method (paper, section 4)."""
+
+from __future__ import annotations
+
+from grainfront.geometry.moments import place_polygon
+from grainfront.jit import inlined, kernel
+from grainfront.packing.exhaustive import choose_exhaustively
+from grainfront.packing.front import bury, front_length, move_gap
+from grainfront.packing.grid import insert
+from grainfront.packing.orientations import draw_orientations, turn_and_inflate
+from grainfront.packing.search import choose_lowest
+from grainfront.packing.state import RIGHT_WALL
+from grainfront.packing.trials import RESOLVED, TOO_HIGH
+
+# Particles that wait at the top for a lower place while others are tried: enough for one giant
+# grain not to end the packing, few enough not to bend the size law.
+WAITING_PLACES = 8
+
+# What the loop remembers between calls.
+N_PLACED, N_DRAWN, N_WAITING, TURN, PLACED_IN_ROW, FINISHED, N_COUNTERS = range(7)
+
+
+@inlined
+def store(placed, front, grid, domain, supply, law, trials, source, number, x, y, angle, i, k):
+    """Make the chosen trial, uninflated, a placed particle and a member of the front."""
+    shape = supply.shape[source]
+    size = supply.size[source]
+    first = supply.hull_offsets[shape]
+    count = supply.hull_offsets[shape + 1] - first
+    start = placed.offsets[number]
+    place_polygon(
+        supply.hull_nodes, first, count, size, trials.orientation[angle], x, y, placed.nodes, start
+    )
+    placed.offsets[number + 1] = start + count
+    placed.disc[number, 0] = x
+    placed.disc[number, 1] = y
+    placed.disc[number, 2] = supply.circumradius[shape] * size
+    placed.disc[number, 3] = supply.inradius[shape] * size
+    placed.orientation[number] = trials.orientation[angle]
+    placed.source[number] = source
+    law.placed[trials.bin[angle]] += 1
+    insert(grid, domain, number, x, y, placed.disc[number, 2])
+    bury(front, i, k, number)
+
+
+@inlined
+def pass_on(front, counters):
+    """Move on by one member; at the right wall begin a new row, or finish after an idle one."""
+    counters[TURN] = 0
+    if front.member[front.ends[1]] != RIGHT_WALL:
+        move_gap(front, front.ends[0] + 1)
+        return
+    if counters[PLACED_IN_ROW] == 0:
+        counters[FINISHED] = 1
+    counters[PLACED_IN_ROW] = 0
+    move_gap(front, 1)
+
+
+@kernel
+def advance(front, placed, grid, domain, supply, law, trials, waiting, counters, memory, n_angle, n_loc, limit):
+    """Place particles until there are `limit` or the domain is full."""
+    while counters[N_PLACED] < limit and not counters[FINISHED]:
+        turn = counters[TURN]
+        if turn == counters[N_WAITING]:
+            if turn == waiting.size or counters[N_DRAWN] == supply.size.size:
+                pass_on(front, counters)
+                continue
+            waiting[turn] = counters[N_DRAWN]
+            counters[N_DRAWN] += 1
+            counters[N_WAITING] += 1
+        source = waiting[turn]
+        draw_orientations(law, trials, n_angle, counters[N_PLACED], supply.uniform[source])
+        particle = turn_and_inflate(supply, source, domain.clearance, trials, n_angle)
+        if memory is None:
+            status, x, y, i, k, angle = choose_exhaustively(
+                front, placed, grid, domain, trials, particle, n_angle, n_loc
+            )
+        else:
+            status, x, y, i, k, angle = choose_lowest(
+                front, placed, grid, domain, trials, memory, particle, n_angle, n_loc
+            )
+        if status == RESOLVED:
+            at_right_wall = k == front_length(front) - 1
+            number = counters[N_PLACED]
+            store(placed, front, grid, domain, supply, law, trials, source, number, x, y, angle, i, k)
+            counters[N_PLACED] += 1
+            counters[PLACED_IN_ROW] += 1
+            counters[N_WAITING] -= 1
+            for n in range(turn, counters[N_WAITING]):
+                waiting[n] = waiting[n + 1]
+            counters[TURN] = 0
+            if at_right_wall:
+                pass_on(front, counters)
+        elif status == TOO_HIGH:
+            counters[TURN] += 1
+        else:
+            pass_on(front, counters)

@@ -1,0 +1,68 @@
+"""Trial orientations that steer the placed ones towards the prescribed law (paper, Pseudocode 9)."""
+
+from __future__ import annotations
+
+import math
+
+from grainfront.jit import inlined
+
+
+@inlined
+def draw_orientations(law, trials, n_angle, n_placed, uniform):
+    """Draw `n_angle` orientations, ascending, by systematic sampling of the bins' deficits.
+
+    The deficit of a bin is what it lacks once one more particle is placed; bins that have their
+    share already offer nothing.
+    """
+    n_bin = law.probability.size
+    trials.weight[0] = 0.0
+    for b in range(n_bin):
+        deficit = law.probability[b] * (n_placed + 1) - law.placed[b]
+        trials.weight[b + 1] = trials.weight[b] + max(deficit, 0.0)
+    step = trials.weight[n_bin] / n_angle
+    last = law.quantile.size - 1
+    b = 0
+    for a in range(n_angle):
+        target = (a + uniform) * step
+        while b < n_bin - 1 and trials.weight[b + 1] <= target:
+            b += 1
+        within = (target - trials.weight[b]) / (trials.weight[b + 1] - trials.weight[b])
+        within = min(max(within, 0.0), 1.0)
+        u = law.cumulative[b] + within * (law.cumulative[b + 1] - law.cumulative[b])
+        i = min(int(u * last), last - 1)
+        low = law.quantile[i]
+        trials.orientation[a] = low + (u * last - i) * (law.quantile[i + 1] - low)
+        trials.bin[a] = b
+
+
+@inlined
+def turn_and_inflate(supply, particle, clearance, trials, n_angle):
+    """Write the particle's hull in every trial orientation, inflated about its centre.
+
+    Returns the node count, the circumradius and the inradius of the inflated hull.
+    """
+    shape = supply.shape[particle]
+    size = supply.size[particle]
+    first = supply.hull_offsets[shape]
+    count = supply.hull_offsets[shape + 1] - first
+    inradius = supply.inradius[shape] * size
+    scale = size * (1.0 + clearance / inradius)
+    for a in range(n_angle):
+        angle = math.radians(trials.orientation[a])
+        c = math.cos(angle) * scale
+        s = math.sin(angle) * scale
+        left = bottom = right = top = 0.0
+        for i in range(count):
+            x = c * supply.hull_nodes[first + i, 0] - s * supply.hull_nodes[first + i, 1]
+            y = s * supply.hull_nodes[first + i, 0] + c * supply.hull_nodes[first + i, 1]
+            trials.nodes[a * count + i, 0] = x
+            trials.nodes[a * count + i, 1] = y
+            left = min(left, x)
+            right = max(right, x)
+            bottom = min(bottom, y)
+            top = max(top, y)
+        trials.reach[a, 0] = -left
+        trials.reach[a, 1] = -bottom
+        trials.reach[a, 2] = right
+        trials.reach[a, 3] = top
+    return count, supply.circumradius[shape] * scale, supply.inradius[shape] * scale

@@ -1,0 +1,100 @@
+"""The data a packing works on: named tuples of arrays, so that kernels take few arguments.
+
+Indices: a *particle* counts in order of placement; a *member* of the advancing front is a particle
+or a wall (negative); a *position* counts members along the front, from the left wall to the right.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+LEFT_WALL, BOTTOM_WALL, RIGHT_WALL = -1, -2, -3
+
+# A new particle is placed and tested inflated by a clearance, and stored as it is, so that rounding
+# cannot make stored neighbours overlap. Contacts and stored coordinates are wrong by a few units in
+# the last place of the largest coordinate; 64 of them leave a wide margin.
+CLEARANCE_ULPS = 64.0
+# Exact ties (face on face) may come out as penetrations by rounding: a quarter of the clearance is
+# accepted, which still leaves three quarters of it between the stored particles.
+TOLERANCE_OF_CLEARANCE = 0.25
+
+
+class Domain(NamedTuple):
+    """Walls of the rectangle and the tolerance of overlap tests, all in the scene's unit."""
+
+    x_min: float
+    y_min: float
+    x_max: float
+    y_max: float
+    clearance: float
+    tolerance: float
+
+
+class Supply(NamedTuple):
+    """Particles waiting to be placed, and the standardised hulls they are copies of."""
+
+    hull_nodes: np.ndarray  # (n_hull_nodes, 2), centroid at the origin, S = 1
+    hull_offsets: np.ndarray  # (n_shapes + 1,)
+    circumradius: np.ndarray  # (n_shapes,), of the hull about its centroid
+    inradius: np.ndarray  # (n_shapes,)
+    shape: np.ndarray  # (n,) index of the hull
+    size: np.ndarray  # (n,) minimum Feret diameter
+    uniform: np.ndarray  # (n,) in [0, 1): the random offset of the trial orientations
+
+
+class OrientationLaw(NamedTuple):
+    """The prescribed orientations as bin probabilities and a quantile table, in degrees."""
+
+    probability: np.ndarray  # (n_bin,)
+    cumulative: np.ndarray  # (n_bin + 1,)
+    quantile: np.ndarray  # (n_table,) at equally spaced probabilities from 0 to 1
+    placed: np.ndarray  # (n_bin,) how many particles each bin has so far
+
+
+class Placed(NamedTuple):
+    """Particles that have found their place."""
+
+    nodes: np.ndarray  # (n_nodes, 2)
+    offsets: np.ndarray  # (n + 1,)
+    disc: np.ndarray  # (n, 4): x, y, circumradius, inradius
+    orientation: np.ndarray  # (n,) degrees
+    source: np.ndarray  # (n,) index into the supply
+
+
+class Grid(NamedTuple):
+    """Cell lists of the placed particles, one level for each range of circumradii."""
+
+    head: np.ndarray  # (n_cells,) latest particle of each cell, or -1
+    next: np.ndarray  # (n,) the particle before it in the same cell, or -1
+    level: np.ndarray  # (n_levels, 5): cell size, largest circumradius, columns, rows, first cell
+    occupied: np.ndarray  # (n_levels,) particles in each level
+
+
+class Front(NamedTuple):
+    """The stacks Back and Front as one array with a gap between their tops (paper, Fig. 8)."""
+
+    member: np.ndarray  # (capacity,)
+    slot: np.ndarray  # (n,) index of a particle in `member`, or -1 once it is buried
+    ends: np.ndarray  # (2,) one past Back's top; Front's top
+
+
+class Trials(NamedTuple):
+    """The particle to be placed in all its trial orientations, inflated by the clearance."""
+
+    nodes: np.ndarray  # (n_angle × largest node count, 2), relative to the centre
+    reach: np.ndarray  # (n_angle, 4) from the centre to the left, bottom, right and top
+    orientation: np.ndarray  # (n_angle,) degrees, ascending
+    bin: np.ndarray  # (n_angle,)
+    weight: np.ndarray  # (n_bin + 1,) work space: cumulative deficits
+
+
+class Trial(NamedTuple):
+    """One trial orientation of the particle to be placed."""
+
+    start: int
+    count: int
+    angle: int
+    circumradius: float
+    inradius: float
