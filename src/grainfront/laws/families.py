@@ -46,11 +46,12 @@ class TruncatedLaw(Law):
                 f"minimum is {self.minimum:g}, but must be less than maximum, {self.maximum:g}",
             )
         below, up_to = self._kept()
+        lower = -np.inf if self.minimum is None else self.minimum
+        upper = np.inf if self.maximum is None else self.maximum
         require(
             up_to - below >= LEAST_SHARE_KEPT,
-            f"only the share {max(up_to - below, 0.0):.1g} of the law lies between minimum "
-            f"{self.minimum} and maximum {self.maximum}, but it must be {LEAST_SHARE_KEPT:g} "
-            "at least",
+            f"the range from {lower:g} to {upper:g} holds {max(up_to - below, 0.0):.1g} of the law, "
+            f"but must hold at least {LEAST_SHARE_KEPT:g}",
         )
 
     def _kept(self) -> tuple[float, float]:

@@ -30,21 +30,18 @@ def require_possible(law: Law, quantity: str) -> None:
         require(
             upper - lower <= WIDEST_ORIENTATION_RANGE,
             f"the orientation law spans {upper - lower:g} degrees, from {lower:g} to {upper:g}, "
-            f"but may span {WIDEST_ORIENTATION_RANGE:g} at most (give minimum and maximum)",
+            f"but may span {WIDEST_ORIENTATION_RANGE:g} at most",
         )
     if quantity == "size":
         require(
             lower >= 0 and law.support[0] > 0,
-            f"the size law reaches down to {lower:g}, but sizes must be greater than 0 "
-            "(give a minimum)",
+            f"the size law reaches down to {lower:g}, but sizes must be greater than 0",
         )
     require(
         lower >= lowest,
-        f"the {quantity} law reaches down to {lower:g}, but {quantity} is at least {lowest:g} "
-        "(give a minimum)",
+        f"the {quantity} law reaches down to {lower:g}, but {quantity} is at least {lowest:g}",
     )
     require(
         upper <= highest,
-        f"the {quantity} law reaches up to {upper:g}, but {quantity} is at most {highest:g} "
-        "(give a maximum)",
+        f"the {quantity} law reaches up to {upper:g}, but {quantity} is at most {highest:g}",
     )

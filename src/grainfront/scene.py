@@ -1,0 +1,202 @@
+"""Scene files: the only reader of configuration, from YAML to frozen dataclasses."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from dataclasses import dataclass
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+from grainfront import laws
+from grainfront.checked_yaml import parse_checked, read_text
+from grainfront.errors import InputError
+from grainfront.laws import Law
+from grainfront.particles import Rectangle
+from grainfront.shapes import sources
+from grainfront.shapes.sources import ShapeSource
+
+# Descriptors whose law the choice of the shapes may follow.
+MATCHED = ("aspect_ratio", "circularity", "regularity")
+# A path of this beginning names a photograph that ships inside scikit-image, not a file.
+SKIMAGE = "skimage:"
+
+LAWS: dict[str, Callable[..., Law]] = {
+    "uniform": laws.Uniform,
+    "normal": laws.Normal,
+    "lognormal": laws.Lognormal,
+    "weibull": laws.Weibull,
+    "gamma": laws.Gamma,
+    "exponential": laws.Exponential,
+    "beta": laws.Beta,
+    "histogram": laws.Histogram,
+    "grading_curve": laws.GradingCurve,
+}
+IMAGES: dict[str, Callable[..., ShapeSource]] = {
+    "photographs": sources.Photographs,
+    "binary_masks": sources.BinaryMasks,
+    "label_masks": sources.LabelMasks,
+}
+FAMILIES: dict[str, Callable[..., ShapeSource]] = {
+    "rectangle": sources.Rectangles,
+    "regular_polygon": sources.RegularPolygon,
+    "random_convex_polygon": sources.RandomConvexPolygons,
+    "fourier_grain": sources.FourierGrains,
+}
+
+
+@dataclass(frozen=True)
+class PackingEffort:
+    """Trial orientations, half-size of the local front, orientation bins (paper, section 4.1)."""
+
+    n_angle: int
+    n_loc: int
+    n_bin: int
+
+
+@dataclass(frozen=True)
+class Scene:
+    """What one packing is made of.
+
+    Lengths are in `length_unit`, orientations in degrees. `text` is the scene file as it was read,
+    `name` its name without the suffix. One packing is made for each of `seeds`. `matched` is the
+    descriptor (aspect_ratio, circularity or regularity) that the choice of the shapes follows, and
+    its law. `outputs` are those beyond NetCDF: "vtk", "figures".
+    """
+
+    name: str
+    text: str
+    length_unit: str
+    seeds: tuple[int, ...]
+    domain: Rectangle
+    shapes: ShapeSource
+    size: Law
+    matched: tuple[str, Law] | None
+    orientation: Law
+    packing: PackingEffort
+    replacement: bool
+    outputs: tuple[str, ...]
+
+
+def scene_schema() -> dict[str, Any]:
+    """The JSON Schema of scene files, as installed with the package."""
+    return json.loads((files("grainfront") / "scene.schema.json").read_text(encoding="utf-8"))
+
+
+def load_scene(path: str | Path) -> Scene:
+    """Read and check a scene file; image and outline paths in it are relative to it.
+
+    Raises InputError, one sentence naming file, key, value and what is allowed, where the file
+    cannot be read, breaks the schema, names a file that does not exist, or asks for the impossible.
+    """
+    path = Path(path)
+    text = read_text(path)
+    data = parse_checked(text, scene_schema(), str(path))
+    try:
+        return _scene(path, text, data)
+    except InputError as error:
+        raise InputError(f"{path}: {error}.") from None
+
+
+def _scene(path: Path, text: str, data: dict[str, Any]) -> Scene:
+    domain = _domain(data["domain"])
+    size = _law("size", data)
+    _require_room(domain, size)
+    return Scene(
+        name=path.stem,
+        text=text,
+        length_unit=data["length_unit"],
+        seeds=_seeds(data),
+        domain=domain,
+        shapes=_shapes(data["shapes"], path.parent),
+        size=size,
+        matched=_matched(data),
+        orientation=_law("orientation", data),
+        packing=PackingEffort(**data["packing"]),
+        replacement=data["replacement"],
+        outputs=tuple(data["outputs"]),
+    )
+
+
+def _seeds(data: dict[str, Any]) -> tuple[int, ...]:
+    if ("seed" in data) == ("seeds" in data):
+        found = "both seed and seeds are" if "seed" in data else "neither seed nor seeds is"
+        raise InputError(f"{found} given, but there must be exactly one of them")
+    return tuple(int(seed) for seed in data.get("seeds", [data.get("seed")]))
+
+
+def _domain(data: dict[str, Any]) -> Rectangle:
+    x, y = map(float, data["origin"])
+    return Rectangle(x, y, x + data["width"], y + data["height"])
+
+
+def _require_room(domain: Rectangle, size: Law) -> None:
+    smallest, narrowest = size.support[0], min(domain.width, domain.height)
+    if smallest > narrowest:
+        raise InputError(
+            f"domain has a narrowest side of {narrowest:g}, but it must be at least as wide as the "
+            f"smallest grain, of size {smallest:g} (lower end of the size law)"
+        )
+
+
+def _law(key: str, data: dict[str, Any]) -> Law:
+    """The law under `key`, checked to be possible for that quantity."""
+    ((kind, parameters),) = data[key].items()
+    try:
+        law = laws.Constant(parameters) if kind == "constant" else LAWS[kind](**parameters)
+        laws.require_possible(law, key)
+    except InputError as error:
+        raise InputError(f"{key}.{kind}: {error}") from None
+    return law
+
+
+def _matched(data: dict[str, Any]) -> tuple[str, Law] | None:
+    given = [key for key in MATCHED if key in data]
+    if len(given) > 1:
+        raise InputError(
+            f"{' and '.join(given)} are given, but at most one of {', '.join(MATCHED)} may be, "
+            "as a shape cannot follow two laws at once"
+        )
+    return (given[0], _law(given[0], data)) if given else None
+
+
+def _shapes(data: dict[str, Any], folder: Path) -> ShapeSource:
+    ((kind, parameters),) = data.items()
+    if kind == "family":
+        ((family, descriptors),) = parameters.items()
+        return FAMILIES[family](**_frozen(descriptors))
+    if kind == "outlines_file":
+        return sources.OutlinesFile(_found(parameters["path"], folder, f"shapes.{kind}.path"))
+    parameters = dict(parameters)
+    parameters["paths"] = [
+        _found(name, folder, f"shapes.{kind}.paths[{i}]")
+        for i, name in enumerate(parameters["paths"])
+    ]
+    if "segmentation" in parameters:
+        parameters["segmentation"] = _segmentation(parameters["segmentation"])
+    return IMAGES[kind](**_frozen(parameters))
+
+
+def _segmentation(data: dict[str, Any]) -> sources.Segmentation:
+    if data["block_size"] % 2 == 0:
+        raise InputError(
+            f"shapes.photographs.segmentation.block_size is {data['block_size']}, "
+            "but must be an odd number"
+        )
+    return sources.Segmentation(**data)
+
+
+def _found(name: str, folder: Path, key: str) -> str:
+    """The path of a file named in the scene, checked to be there."""
+    if name.startswith(SKIMAGE):
+        return name
+    path = folder / name
+    if not path.is_file():
+        raise InputError(f"{key} is '{name}', but must be a file, and there is none at {path}")
+    return str(path)
+
+
+def _frozen(parameters: dict[str, Any]) -> dict[str, Any]:
+    """Parameters with tuples for lists, as frozen dataclasses hold them."""
+    return {key: tuple(v) if isinstance(v, list) else v for key, v in parameters.items()}
