@@ -207,7 +207,7 @@ FAULTS = [
     (
         "constant: 1.0",
         "normal: {mean: 1, standard_deviation: 0.1, minimum: 5}",
-        ["size.normal", "of the law, but must hold"],
+        ["size.normal", "of the law, but must hold at least"],
     ),
     (
         "constant: 1.0",

@@ -50,8 +50,8 @@ class TruncatedLaw(Law):
         upper = np.inf if self.maximum is None else self.maximum
         require(
             up_to - below >= LEAST_SHARE_KEPT,
-            f"the range from {lower:g} to {upper:g} holds {max(up_to - below, 0.0):.1g} of the law, "
-            f"but must hold at least {LEAST_SHARE_KEPT:g}",
+            f"the range from {lower:g} to {upper:g} holds {max(up_to - below, 0.0):.1g} of the "
+            f"law, but must hold at least {LEAST_SHARE_KEPT:g}",
         )
 
     def _kept(self) -> tuple[float, float]:
