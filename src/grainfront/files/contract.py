@@ -26,7 +26,9 @@ class Variable:
     long_name: str
     attributes: dict[str, str] = field(default_factory=dict)
     finite: bool = True
-    """False where infinity (a law's open support) or NaN (undefined) is a lawful value."""
+    """False where an infinite or an undefined value (NaN) is lawful."""
+    optional: bool = False
+    """True where only some scenes have it."""
 
 
 @dataclass(frozen=True)
@@ -61,28 +63,31 @@ def _polygons(element: str, units: str, long_name: str) -> dict[str, Variable]:
         "node_coordinates": "node_x node_y",
         "variable_name": "geometry",  # what cf_xarray calls the decoded polygons
     }
-    node = f"coordinate of the nodes of the {long_name}, counter-clockwise, the first repeated"
+    node = f"coordinate of the nodes of each {long_name}, counter-clockwise, the first repeated"
     return {
         "geometry": Variable("int", (), "", f"{long_name} as polygons", container),
-        "node_count": Variable("int64", (element,), "1", f"nodes of the {long_name}"),
+        "node_count": Variable(
+            "int64", (element,), "1", f"nodes of each {long_name}, the repeated one too"
+        ),
         "node_x": Variable("double", ("node",), units, f"x {node}", {"axis": "X"}),
         "node_y": Variable("double", ("node",), units, f"y {node}", {"axis": "Y"}),
     }
 
 
-def _of(dimensions: tuple[str, ...], finite: bool = True, geometry: bool = False, **rows):
-    """Double variables of the same dimensions from rows of (units, long_name)."""
+def _of(
+    dimensions: tuple[str, ...], type: str = "double", geometry: bool = False, finite: bool = True,
+    **rows: tuple[str, str],
+) -> dict[str, Variable]:  # fmt: skip
+    """Variables of the same dimensions from rows of (units, long_name)."""
     attributes = {"geometry": "geometry"} if geometry else {}
     return {
-        name: Variable("double", dimensions, units, long_name, attributes, finite)
+        name: Variable(type, dimensions, units, long_name, attributes, finite)
         for name, (units, long_name) in rows.items()
     }
 
 
-PROVENANCE = {
-    "grainfront_version": Attribute("string", "version of grainfront that wrote the file"),
-    "seed": Attribute("integer", "seed of the random generators"),
-}
+VERSION = {"grainfront_version": Attribute("string", "version of grainfront that wrote the file")}
+SEED = {"seed": Attribute("integer", "seed of the random generators")}
 SCENE = {
     "scene": Attribute("string", "the scene, as YAML text"),
     "length_unit": Attribute("string", "unit of every length"),
@@ -110,7 +115,8 @@ PACKING = Contract(
         ),
     },
     attributes={
-        **PROVENANCE,
+        **VERSION,
+        **SEED,
         **SCENE,
         "domain": Attribute("string", "the domain as WKT, exact to the last bit"),
         "volume_fraction": Attribute("number", "area of the particles over area of the domain"),
@@ -156,11 +162,127 @@ SHAPES = Contract(
         ),
     },
     attributes={
-        **PROVENANCE,
+        **VERSION,
+        **SEED,
         "source": Attribute("string", "where the shapes come from, with its parameters"),
         "source_unit": Attribute("string", "unit of lengths in the source, pixel for images"),
         "count_*": Attribute("integer", "what was found in the source, kept, or dropped and why"),
     },
 )
 
-CONTRACTS = (SHAPES, PACKING)
+CONTACTS = Contract(
+    name="contacts",
+    title="Contacts between particles, and of particles with walls",
+    dimensions={"contact": "pairs of particles that touch", "wall_contact": "contacts with a wall"},
+    variables={
+        **_of(
+            ("contact",),
+            type="int64",
+            particle_a=("1", "index of the first particle, the smaller one"),
+            particle_b=("1", "index of the second particle"),
+        ),
+        **_of(
+            ("contact",),
+            x=(LENGTH, "x coordinate of the contact"),
+            y=(LENGTH, "y coordinate of the contact"),
+            normal_x=("1", "x component of the unit normal from the first to the second particle"),
+            normal_y=("1", "y component of the unit normal from the first to the second particle"),
+        ),
+        **_of(
+            ("wall_contact",),
+            type="int64",
+            wall_particle=("1", "index of the particle that touches the wall"),
+            wall=("1", "the wall: 0 left, 1 bottom, 2 right, 3 top"),
+        ),
+    },
+    attributes={**VERSION, **SEED, **SCENE},
+)
+
+LAW_UNITS = {
+    "size": LENGTH,
+    "aspect_ratio": "1",
+    "circularity": "1",
+    "regularity": "1",
+    "orientation": "degree",
+}
+"""What a law may be prescribed for."""
+
+
+def _law(law: str, units: str) -> dict[str, Variable]:
+    """A prescribed law and, for every seed, what was placed."""
+    name, one_bin = law.replace("_", " "), (f"{law}_bin",)
+    rows = {
+        f"{law}_bin_edges": ((f"{law}_bin_edge",), units, f"edges of the bins of the {name}"),
+        f"{law}_probability": (one_bin, "1", f"prescribed probability of each bin of the {name}"),
+        f"{law}_share": (("seed", *one_bin), "1", f"share of particles in each bin of the {name}"),
+        f"{law}_l2_error": (("seed",), "1", f"L2 distribution error E2 of the {name}"),
+        f"{law}_noise_level": (("seed",), "1", f"E2 of the {name} under independent sampling"),
+    }
+    return {key: Variable("double", *row, optional=True) for key, row in rows.items()}
+
+
+SEED_COUNTS = _of(
+    ("seed",),
+    type="int64",
+    particles=("1", "particles placed"),
+    left_over=("1", "particles drawn that found no place at the top"),
+    contact_pairs=("1", "pairs of particles that touch"),
+    wall_contacts=("1", "pairs of a particle and a wall that touch"),
+    pairs_tested=("1", "certificate: pairs of particles whose bounding boxes meet"),
+    pairs_exact=("1", "certificate: pairs that floating point could not decide"),
+    overlaps=("1", "certificate: pairs of particles that share interior points"),
+    across_wall=("1", "certificate: particles that cross a wall"),
+)
+SEED_FRACTIONS = _of(
+    ("seed",),
+    finite=False,
+    volume_fraction=("1", "area of the particles over area of the domain"),
+    volume_fraction_bulk=("1", "volume fraction away from the walls"),
+    void_ratio=("1", "(1 - volume fraction) over volume fraction"),
+    coordination_number=("1", "2 x contact pairs / particles"),
+    size_correlation_x=("1", "correlation of size with x"),
+    size_correlation_y=("1", "correlation of size with y"),
+    size_correlation_centre=("1", "correlation of size with the distance to the centre"),
+    size_correlation_noise_level=("1", "standard deviation of these if size and place are random"),
+)
+
+STATISTICS = Contract(
+    name="statistics",
+    title="Statistics of the packings of a scene",
+    dimensions={
+        "seed": "packings of the scene",
+        "contact_count": "contacts of one particle: 0, 1, 2 ...",
+        "rose_bin": "bins of the orientation rose",
+        "rose_bin_edge": "edges of the bins of the orientation rose",
+        **{
+            f"{law}_{dimension}": f"{meaning} of the {law.replace('_', ' ')}"
+            for law in LAW_UNITS
+            for dimension, meaning in {"bin": "bins", "bin_edge": "edges of the bins"}.items()
+        },
+    },
+    variables={
+        **_of(("seed",), type="int64", seed=("1", "seed of the random generators")),
+        **SEED_COUNTS,
+        **SEED_FRACTIONS,
+        **_of(
+            ("seed", "contact_count"),
+            contact_share=("1", "share of the particles that have so many contacts"),
+        ),
+        **_of(
+            ("rose_bin_edge",),
+            rose_bin_edges=("degree", "edges of the bins of the orientation rose"),
+        ),
+        **_of(
+            ("seed", "rose_bin"),
+            rose_share=("1", "share of the particles in each bin of the orientation rose"),
+        ),
+        "rose_probability": Variable(
+            "double", ("rose_bin",), "1", "prescribed probability of each bin of the rose",
+            optional=True,
+        ),
+        **{key: v for law, units in LAW_UNITS.items() for key, v in _law(law, units).items()},
+    },
+    attributes={**VERSION, **SCENE},
+)  # fmt: skip
+
+CONTRACTS = (SHAPES, PACKING, CONTACTS, STATISTICS)

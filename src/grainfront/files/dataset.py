@@ -35,8 +35,11 @@ def write_dataset(
     with replacing(path) as temporary:
         with netCDF4.Dataset(temporary, "w", format="NETCDF4") as dataset:
             for name in contract.dimensions:
-                dataset.createDimension(name, sizes[name])
+                if name in sizes:
+                    dataset.createDimension(name, sizes[name])
             for name, variable in contract.variables.items():
+                if name in contract.data and name not in arrays:
+                    continue
                 # Without a fill value the bytes of a file are exactly its data.
                 target = dataset.createVariable(
                     name, DTYPES[variable.type], variable.dimensions, fill_value=False
@@ -67,7 +70,8 @@ def read_dataset(path: Path, contract: Contract) -> tuple[dict[str, np.ndarray],
             dataset.set_auto_mask(False)
             found = header(dataset)
             _check_header(path, contract, found)
-            arrays = {name: dataset[name][...] for name in contract.data}
+            present = [name for name in contract.data if name in dataset.variables]
+            arrays = {name: dataset[name][...] for name in present}
     except (OSError, RuntimeError) as error:
         raise InputError(f"{path}: not a whole NetCDF file ({error})") from error
     _check_arrays(path, contract, arrays)
@@ -108,11 +112,12 @@ def _check_header(path: Path, contract: Contract, found: dict[str, Any]) -> None
 
 def _check_arrays(path: Path, contract: Contract, arrays: Arrays) -> dict[str, int]:
     """Sizes of the dimensions, after checking names, types, shapes and values of the arrays."""
-    if wrong := sorted(set(contract.data).symmetric_difference(arrays)):
+    required = {name for name, v in contract.data.items() if not v.optional}
+    if wrong := sorted((required - set(arrays)) | (set(arrays) - set(contract.data))):
         raise InputError(f"{path}: missing or unknown variables {wrong} in {contract.name} data")
     sizes: dict[str, int] = {}
-    for name, variable in contract.data.items():
-        array = np.asarray(arrays[name])
+    for name, array in arrays.items():
+        variable = contract.variables[name]
         if array.dtype != DTYPES[variable.type]:
             raise InputError(f"{path}: {name} is {array.dtype}, but must be {variable.type}")
         if array.ndim != len(variable.dimensions):

@@ -1,4 +1,4 @@
-"""The result datasets as NetCDF files: shapes, packings, contacts and statistics.
+"""Shapes, packings and contacts as NetCDF files.
 
 Polygons are a geometry container of the CF conventions (CF-1.9, section 7.5), rings closed.
 """
@@ -11,13 +11,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from grainfront.errors import InputError
-from grainfront.files.contract import PACKING, SHAPES
+from grainfront.files.contract import CONTACTS, PACKING, SHAPES
 from grainfront.files.dataset import Path, read_dataset, write_dataset
 from grainfront.particles import Packing, Rectangle
 from grainfront.polygons import Polygons
 
 if TYPE_CHECKING:
     from grainfront.shapes.database import ShapeDatabase
+    from grainfront.statistics.contacts import Contacts
 
 PARTICLE_FIELDS = (
     "x", "y", "size", "aspect_ratio", "orientation", "area", "circumradius", "shape"
@@ -87,6 +88,8 @@ def read_shapes(path: Path) -> ShapeDatabase:
 
     Errors: InputError where the file is missing, cut off, no NetCDF or breaks the contract.
     """
+    from grainfront.shapes.database import ShapeDatabase
+
     arrays, attributes = read_dataset(path, SHAPES)
     outlines = _open_rings(path, arrays)
     counts = arrays.pop("hull_node_count")
@@ -104,6 +107,48 @@ def read_shapes(path: Path) -> ShapeDatabase:
             for name, count in attributes.items()
             if name.startswith("count_")
         },
+    )
+
+
+def write_contacts(
+    path: Path, contacts: Contacts, *, scene_text: str, seed: int, length_unit: str
+) -> None:
+    """Write the contacts of one packing, the pairs of particles and those with walls.
+
+    Errors: InputError where an array breaks the contract or the folder cannot be written to.
+    """
+    arrays = {
+        "particle_a": contacts.pairs[:, 0],
+        "particle_b": contacts.pairs[:, 1],
+        "x": contacts.position[:, 0],
+        "y": contacts.position[:, 1],
+        "normal_x": contacts.normal[:, 0],
+        "normal_y": contacts.normal[:, 1],
+        "wall_particle": contacts.wall_particle,
+        "wall": contacts.wall,
+    }
+    attributes = {"scene": scene_text, "seed": seed, "length_unit": length_unit}
+    write_dataset(path, CONTACTS, arrays, attributes)
+
+
+def read_contacts(path: Path) -> Contacts:
+    """The contacts at `path`, bit for bit as written.
+
+    Errors: InputError where the file is missing, cut off, no NetCDF or breaks the contract.
+    """
+    from grainfront.statistics.contacts import Contacts
+
+    arrays, _ = read_dataset(path, CONTACTS)
+
+    def columns(a: str, b: str) -> np.ndarray:
+        return np.stack([arrays[a], arrays[b]], axis=1)
+
+    return Contacts(
+        pairs=columns("particle_a", "particle_b"),
+        position=columns("x", "y"),
+        normal=columns("normal_x", "normal_y"),
+        wall_particle=arrays["wall_particle"],
+        wall=arrays["wall"],
     )
 
 

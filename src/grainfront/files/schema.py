@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 import json
+from collections.abc import Set
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -28,15 +29,17 @@ def json_schema(contract: Contract) -> Json:
     groups = {f"^{name[:-1]}": free.pop(name) for name in list(free) if name.endswith("*")}
     dimensions = {name: {"type": "integer", "minimum": 0, "description": description}
                   for name, description in contract.dimensions.items()}  # fmt: skip
+    optional = {name for name, v in contract.variables.items() if v.optional}
+    always = {d for v in contract.variables.values() if not v.optional for d in v.dimensions}
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": f"Header of {contract.name}.nc",
         "description": contract.title,
         **_closed(
             {
-                "dimensions": _closed(dimensions),
-                "variables": _closed(variables),
-                "attributes": _closed({**fixed, **free}, groups),
+                "dimensions": _closed(dimensions, optional=set(dimensions) - always),
+                "variables": _closed(variables, optional=optional),
+                "attributes": _closed({**fixed, **free}, groups=groups),
             }
         ),
     }
@@ -66,12 +69,14 @@ def _units_schema(units: str) -> Json:
     return {"type": "string", "pattern": pattern, "description": meaning}
 
 
-def _closed(properties: Json, groups: Json | None = None) -> Json:
-    """An object with all of these properties and no other."""
+def _closed(
+    properties: Json, *, optional: Set[str] = frozenset(), groups: Json | None = None
+) -> Json:
+    """An object with these properties, all but the optional ones required, and no other."""
     schema = {
         "type": "object",
         "properties": properties,
-        "required": list(properties),
+        "required": [name for name in properties if name not in optional],
         "additionalProperties": False,
     }
     return schema | ({"patternProperties": groups} if groups else {})
@@ -87,7 +92,8 @@ def cdl(contract: Contract) -> str:
     lines += ["variables:"]
     for name, variable in contract.variables.items():
         shape = f"({', '.join(variable.dimensions)})" if variable.dimensions else ""
-        lines.append(f"\t{variable.type} {name}{shape} ;")
+        note = " // only where the scene has it" if variable.optional else ""
+        lines.append(f"\t{variable.type} {name}{shape} ;{note}")
         attributes = {"long_name": variable.long_name, "units": variable.units}
         for key, value in (attributes | variable.attributes).items():
             if value:
