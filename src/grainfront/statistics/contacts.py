@@ -1,0 +1,117 @@
+"""Which particles touch, where, and in which direction they push."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+
+from grainfront.geometry.boxes import bounding_boxes
+from grainfront.particles import Packing
+from grainfront.polygons import Polygons
+
+CONTACT_TOLERANCE = 1e-6
+"""Largest gap of a contact, in mean sizes.
+
+Far above the gaps that packing leaves on purpose against rounding (about 1e-14 of the domain), far
+below the distance of neighbours that do not touch.
+"""
+
+
+@dataclass(frozen=True)
+class Contacts:
+    """Pairs of particles that touch, and particles that touch a wall.
+
+    `pairs` has shape (n_contacts, 2), first index smaller, sorted; `position` and `normal` have the
+    same shape, lengths in the scene's unit. The normal has length 1 and points from the first
+    particle to the second. A pair that touches along an edge is one contact, in the middle of the
+    shared segment. `wall_particle` and `wall` have shape (n_wall_contacts,); walls are numbered
+    left 0, bottom 1, right 2, top 3.
+    """
+
+    pairs: np.ndarray
+    position: np.ndarray
+    normal: np.ndarray
+    wall_particle: np.ndarray
+    wall: np.ndarray
+
+    def per_particle(self, particles: int) -> np.ndarray:
+        """Contacts with other particles of each particle, shape (particles,)."""
+        return np.bincount(self.pairs.ravel(), minlength=particles)
+
+
+def find_contacts(packing: Packing) -> Contacts:
+    """Find the pairs whose gap is at most `CONTACT_TOLERANCE` × mean size, walls apart."""
+    tolerance = CONTACT_TOLERANCE * float(packing.size.mean())
+    polygons, domain = packing.polygons, packing.domain
+    boxes = bounding_boxes(polygons.nodes, polygons.offsets)
+    lower = boxes[:, :2] - [domain.x_min, domain.y_min]
+    upper = [domain.x_max, domain.y_max] - boxes[:, 2:]
+    wall_particle, wall = np.nonzero(np.hstack([lower, upper]) <= tolerance)
+    return Contacts(*_pair_contacts(polygons, tolerance), wall_particle, wall)
+
+
+def _pair_contacts(
+    polygons: Polygons, tolerance: float
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Pairs, positions and normals.
+
+    Where two boundaries come close, a node of one is close to an edge of the other; a shared
+    segment ends in such nodes. Each close node and edge votes for the edge's normal, unless the
+    node's neighbours lie deeper behind the edge than those of a rival: where two nodes meet, that
+    leaves the edges that separate the particles.
+    """
+    nodes = polygons.nodes
+    owner = np.repeat(np.arange(polygons.count), polygons.node_counts)
+    before, after = _neighbours(polygons)
+    node, edge = _close_nodes_and_edges(nodes, after, owner, tolerance)
+    if node.size == 0:
+        return np.empty((0, 2), dtype=np.int64), np.empty((0, 2)), np.empty((0, 2))
+
+    ends = np.sort(np.column_stack([owner[node], owner[edge]]), axis=1)
+    order = np.lexsort((ends[:, 1], ends[:, 0]))
+    node, edge, ends = node[order], edge[order], ends[order]
+    changes = np.any(ends[1:] != ends[:-1], axis=1)
+    starts = np.flatnonzero(np.concatenate([[True], changes]))
+    pair = np.cumsum(np.concatenate([[0], changes]))
+
+    start, along = nodes[edge], nodes[after[edge]] - nodes[edge]
+    outward = np.column_stack([along[:, 1], -along[:, 0]])
+    outward /= np.hypot(along[:, 0], along[:, 1])[:, None]
+    depth = np.min([_dot(nodes[k] - start, outward) for k in (before[node], node, after[node])], 0)
+    separates = depth >= np.maximum.reduceat(depth, starts)[pair] - tolerance
+    votes = np.where(owner[edge] == ends[:, 0], 1.0, -1.0) * separates
+    normal = np.add.reduceat(votes[:, None] * outward, starts)
+    normal /= np.hypot(normal[:, 0], normal[:, 1])[:, None]
+
+    share = np.clip(_dot(nodes[node] - start, along) / _dot(along, along), 0.0, 1.0)
+    point = 0.5 * (nodes[node] + start + share[:, None] * along)
+    tangent = np.column_stack([-normal[:, 1], normal[:, 0]])
+    place = _dot(point - point[starts][pair], tangent[pair])
+    middle = 0.5 * (np.minimum.reduceat(place, starts) + np.maximum.reduceat(place, starts))
+    return ends[starts], point[starts] + middle[:, None] * tangent, normal
+
+
+def _close_nodes_and_edges(
+    nodes: np.ndarray, after: np.ndarray, owner: np.ndarray, tolerance: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Indices of nodes and edges of different particles at most `tolerance` apart."""
+    edges = shapely.linestrings(np.stack([nodes, nodes[after]], axis=1))
+    tree = shapely.STRtree(edges)
+    node, edge = tree.query(shapely.points(nodes), predicate="dwithin", distance=tolerance)
+    apart = owner[node] != owner[edge]
+    return node[apart], edge[apart]
+
+
+def _neighbours(polygons: Polygons) -> tuple[np.ndarray, np.ndarray]:
+    """Index of the node before and of the node after each node, round its polygon."""
+    index = np.arange(len(polygons.nodes))
+    before, after = index - 1, index + 1
+    before[polygons.offsets[:-1]] = polygons.offsets[1:] - 1
+    after[polygons.offsets[1:] - 1] = polygons.offsets[:-1]
+    return before, after
+
+
+def _dot(u: np.ndarray, v: np.ndarray) -> np.ndarray:
+    return u[:, 0] * v[:, 0] + u[:, 1] * v[:, 1]

@@ -1,0 +1,46 @@
+"""How much of the domain the particles fill."""
+
+from __future__ import annotations
+
+import numpy as np
+import shapely
+
+from grainfront.geometry.boxes import bounding_boxes
+from grainfront.particles import Packing
+
+BULK_MARGIN = 2.0
+"""Width of the strip along the walls that the bulk leaves out, in square roots of the mean area."""
+
+
+def volume_fraction(packing: Packing) -> float:
+    """Area of the particles over the area of the domain."""
+    return float(packing.area.sum() / packing.domain.area)
+
+
+def volume_fraction_bulk(packing: Packing) -> float:
+    """Volume fraction away from the walls, where particles cannot pack as they do inside.
+
+    The domain is shrunk by `BULK_MARGIN` × sqrt(mean particle area) from every wall; particles that
+    straddle the border of what remains count with their part inside. NaN where nothing remains.
+    """
+    domain = packing.domain
+    margin = BULK_MARGIN * float(np.sqrt(packing.area.mean()))
+    x_min, y_min = domain.x_min + margin, domain.y_min + margin
+    x_max, y_max = domain.x_max - margin, domain.y_max - margin
+    if x_min >= x_max or y_min >= y_max:
+        return float("nan")
+    polygons = packing.polygons
+    left, bottom, right, top = bounding_boxes(polygons.nodes, polygons.offsets).T
+    inside = (left >= x_min) & (bottom >= y_min) & (right <= x_max) & (top <= y_max)
+    outside = (left >= x_max) | (bottom >= y_max) | (right <= x_min) | (top <= y_min)
+    straddling = polygons.to_shapely()[~inside & ~outside]
+    clipped = shapely.area(
+        shapely.intersection(straddling, shapely.box(x_min, y_min, x_max, y_max))
+    )
+    area = packing.area[inside].sum() + clipped.sum()
+    return float(area / ((x_max - x_min) * (y_max - y_min)))
+
+
+def void_ratio(volume_fraction: float) -> float:
+    """Area of the voids over the area of the particles, (1 − φ)/φ."""
+    return (1.0 - volume_fraction) / volume_fraction
