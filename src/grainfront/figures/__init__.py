@@ -1,0 +1,13 @@
+"""Every picture: each function takes what is to be seen and gives a matplotlib Figure.
+
+Nothing is computed here but positions on the paper; numbers come from `statistics`.
+"""
+
+from grainfront.figures.contacts import contacts
+from grainfront.figures.laws import laws
+from grainfront.figures.packing import packing
+from grainfront.figures.photograph import photograph
+from grainfront.figures.rose import rose
+from grainfront.figures.style import save_png
+
+__all__ = ["contacts", "laws", "packing", "photograph", "rose", "save_png"]

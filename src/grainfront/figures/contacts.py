@@ -1,0 +1,84 @@
+"""Contacts: how many a particle has, and the network they form."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+
+from grainfront.figures.packing import inside_window, zoom_window
+from grainfront.figures.style import (
+    BRANCH,
+    GRAIN,
+    GRAIN_EDGE,
+    MM,
+    PLACED,
+    PRESCRIBED,
+    WIDTH,
+    map_axes,
+    panel_letter,
+    styled,
+)
+from grainfront.particles import Packing
+
+if TYPE_CHECKING:
+    from grainfront.statistics import Contacts
+
+
+@styled
+def contacts(
+    packing: Packing,
+    contacts: Contacts,
+    contact_shares: np.ndarray,
+    coordination_number: float,
+    *,
+    length_unit: str,
+) -> Figure:
+    """Shares of the particles by their contacts with the coordination number Z, and the network.
+
+    `contact_shares[k]` is the share of the particles that have k contacts.
+    """
+    figure = Figure(figsize=(WIDTH, 84 * MM))
+    left, right = figure.subplots(1, 2, width_ratios=(1, 1.05))
+    _draw_shares(left, contact_shares, coordination_number)
+    panel_letter(left, "a", f"{len(contacts.pairs):,} contacts between particles")
+    _draw_network(right, packing, contacts, length_unit)
+    panel_letter(right, "b", "network, from centre to contact to centre")
+    return figure
+
+
+def _draw_shares(axes: Axes, contact_shares: np.ndarray, coordination_number: float) -> None:
+    axes.bar(np.arange(contact_shares.size), 100 * contact_shares, width=0.82, color=PLACED)
+    axes.axvline(coordination_number, color=PRESCRIBED, linewidth=1)
+    axes.annotate(
+        f"  Z = {coordination_number:.3f}", (coordination_number, 1.0),
+        xycoords=("data", "axes fraction"), va="top", color=PRESCRIBED,
+    )  # fmt: skip
+    axes.set_ylim(0, 115 * float(contact_shares.max()))
+    axes.set_xlabel("contacts of a particle")
+    axes.set_ylabel("share of particles (%)")
+    axes.xaxis.set_major_locator(MaxNLocator(integer=True))
+
+
+def _draw_network(axes: Axes, packing: Packing, contacts: Contacts, length_unit: str) -> None:
+    window = zoom_window(packing)
+    inside = inside_window(packing, window)
+    grains = [packing.polygons.polygon(i) for i in inside.tolist()]
+    axes.add_collection(
+        PolyCollection(grains, facecolors=GRAIN, edgecolors=GRAIN_EDGE, linewidths=0.3),
+        autolim=False,
+    )
+    seen = np.isin(contacts.pairs, inside).any(axis=1)
+    centres = np.stack([packing.x, packing.y], axis=1)
+    first, second = centres[contacts.pairs[seen].T]
+    points = contacts.position[seen]
+    branches = np.stack([first, points, second], axis=1)
+    axes.add_collection(
+        LineCollection(list(branches), colors=BRANCH, linewidths=0.6), autolim=False
+    )
+    axes.scatter(points[:, 0], points[:, 1], s=4, color=PRESCRIBED, linewidths=0, zorder=3)
+    map_axes(axes, window, length_unit)
