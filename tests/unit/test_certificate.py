@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from grainfront.certificate import certify
 from grainfront.errors import InputError
-from grainfront.geometry.exact import is_convex, is_simple
+from grainfront.geometry.exact import is_convex, is_simple, orientation
 from grainfront.geometry.outlines import interiors_meet
 from grainfront.particles import Rectangle
 
@@ -111,6 +111,21 @@ def test_one_unit_in_the_last_place_decides(packing_of, angle, scale, shift, ulp
     assert certify(packing_of([below, above])).overlaps == expected
 
 
+@pytest.mark.parametrize("exponent", [0, -500, -528, -534])
+def test_orientation_is_exact(exponent):
+    """Points of one line and their nearest neighbours, where rounded determinants mislead.
+
+    Kettner et al. (2008), doi 10.1016/j.comgeo.2007.06.003; scaled down into underflow.
+    """
+    scale = 2.0**exponent
+    for a, b in (((12.0, 12.0), (24.0, 24.0)), ((17.3, 17.3), (24.1, 24.1))):
+        a, b = (scale * a[0], scale * a[1]), (scale * b[0], scale * b[1])
+        for i, j in np.ndindex(24, 24):
+            c = scale * (0.5 + i * 2.0**-53), scale * (0.5 + j * 2.0**-53)
+            determinant = cross(*(tuple(map(Fraction, p)) for p in (a, b, c)))
+            assert orientation(*a, *b, *c) == (determinant > 0) - (determinant < 0)
+
+
 def test_touching_is_no_overlap_and_one_ulp_is(packing_of):
     beside = UNIT_SQUARE + np.array([1.0, 0.0])
     assert certify(packing_of([UNIT_SQUARE, beside])).overlaps == 0
@@ -121,7 +136,7 @@ def test_touching_is_no_overlap_and_one_ulp_is(packing_of):
     assert not certificate.holds
 
 
-@pytest.mark.filterwarnings("ignore:overflow")  # of the areas, which are not certified
+@pytest.mark.filterwarnings("ignore::RuntimeWarning:shapely")  # areas overflow; they are no part
 @pytest.mark.parametrize("exponent", [-600, -500, -30, 0, 30, 500, 600])
 def test_scale_free_beyond_underflow_and_overflow(packing_of, exponent):
     """At 2**±600 the products of the filter leave the range of float64."""
@@ -182,6 +197,11 @@ def test_interlocking_outlines_are_disjoint_until_they_move(packing_of):
     moved = tooth - [ULP, 0.0]
     assert certify(packing_of([notch, moved])).overlaps == 1
     assert certify(packing_of([notch, notch])).overlaps == 1
+    leg = np.array([[0, 0], [1, 0], [1, 3], [0.5, 2], [0, 3]], dtype=float)
+    assert interiors_meet(notch, leg)
+    within = 0.5 * leg + np.array([0.25, 0.5])
+    assert interiors_meet(notch, within)
+    assert interiors_meet(within, notch)
 
 
 @EXAMPLES
