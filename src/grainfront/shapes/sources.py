@@ -19,13 +19,13 @@ class Segmentation:
     `min_solidity` times that of their hull are merged clumps; both are dropped and counted.
     """
 
-    smoothing: float = 1.0
+    smoothing: float = 1.5
     block_size: int = 51
     offset: float = 0.0
     min_distance: int = 5
     dark_grains: bool = False
-    min_perimeter: float = 30.0
-    min_solidity: float = 0.85
+    min_perimeter: float = 36.0
+    min_solidity: float = 0.9
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ class BinaryMasks:
 
     paths: tuple[str, ...]
     dark_grains: bool = False
-    min_perimeter: float = 60.0
+    min_perimeter: float = 57.0
     min_solidity: float = 0.0
 
 
@@ -57,7 +57,7 @@ class LabelMasks:
     """
 
     paths: tuple[str, ...]
-    min_perimeter: float = 60.0
+    min_perimeter: float = 57.0
     min_solidity: float = 0.0
 
 
@@ -96,9 +96,9 @@ class RandomConvexPolygons:
 
 @dataclass(frozen=True)
 class FourierGrains:
-    """`count` grains from Fourier spectra of the radius (Mollon & Zhao 2012), `vertices` nodes each.
+    """`count` outlines of `vertices` nodes, of a Fourier spectrum after Mollon & Zhao (2012).
 
-    D2 (elongation), D3 (main irregularities) and D8 (roughness) are the normalised amplitudes of
+    `d2` (elongation), `d3` (main irregularities) and `d8` (roughness) are the normalised amplitudes of
     the modes 2, 3 and 8; between and beyond them amplitudes decay by the powers `decay_3_8` and
     `decay_8_up` of the mode number; phases are random.
     """
