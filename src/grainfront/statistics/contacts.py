@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
-from grainfront.geometry.boxes import bounding_boxes
+from grainfront.geometry.boxes import bounding_boxes, close_pairs, mark_near_boxes
 from grainfront.particles import Packing
 from grainfront.polygons import Polygons
 
@@ -49,11 +49,11 @@ def find_contacts(packing: Packing) -> Contacts:
     lower = boxes[:, :2] - [domain.x_min, domain.y_min]
     upper = [domain.x_max, domain.y_max] - boxes[:, 2:]
     wall_particle, wall = np.nonzero(np.hstack([lower, upper]) <= tolerance)
-    return Contacts(*_pair_contacts(polygons, tolerance), wall_particle, wall)
+    return Contacts(*_pair_contacts(polygons, boxes, tolerance), wall_particle, wall)
 
 
 def _pair_contacts(
-    polygons: Polygons, tolerance: float
+    polygons: Polygons, boxes: np.ndarray, tolerance: float
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Pairs, positions and normals.
 
@@ -65,7 +65,7 @@ def _pair_contacts(
     nodes = polygons.nodes
     owner = np.repeat(np.arange(polygons.count), polygons.node_counts)
     before, after = _neighbours(polygons)
-    node, edge = _close_nodes_and_edges(nodes, after, owner, tolerance)
+    node, edge = _close_nodes_and_edges(polygons, boxes, after, owner, tolerance)
     if node.size == 0:
         return np.empty((0, 2), dtype=np.int64), np.empty((0, 2)), np.empty((0, 2))
 
@@ -94,12 +94,19 @@ def _pair_contacts(
 
 
 def _close_nodes_and_edges(
-    nodes: np.ndarray, after: np.ndarray, owner: np.ndarray, tolerance: float
+    polygons: Polygons, boxes: np.ndarray, after: np.ndarray, owner: np.ndarray, tolerance: float
 ) -> tuple[np.ndarray, np.ndarray]:
     """Indices of nodes and edges of different particles at most `tolerance` apart."""
-    edges = shapely.linestrings(np.stack([nodes, nodes[after]], axis=1))
-    tree = shapely.STRtree(edges)
-    node, edge = tree.query(shapely.points(nodes), predicate="dwithin", distance=tolerance)
+    nodes = polygons.nodes
+    near_nodes, near_edges = np.zeros((2, len(nodes)), dtype=np.bool_)
+    pairs = close_pairs(boxes, tolerance)
+    mark_near_boxes(nodes, polygons.offsets, boxes, pairs, tolerance, near_nodes, near_edges)
+    points, edges = np.flatnonzero(near_nodes), np.flatnonzero(near_edges)
+    lines = shapely.linestrings(np.stack([nodes[edges], nodes[after[edges]]], axis=1))
+    node, edge = shapely.STRtree(lines).query(
+        shapely.points(nodes[points]), predicate="dwithin", distance=tolerance
+    )
+    node, edge = points[node], edges[edge]
     apart = owner[node] != owner[edge]
     return node[apart], edge[apart]
 
