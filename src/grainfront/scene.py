@@ -165,6 +165,8 @@ def _shapes(data: dict[str, Any], folder: Path) -> ShapeSource:
     ((kind, parameters),) = data.items()
     if kind == "family":
         ((family, descriptors),) = parameters.items()
+        if family == "rectangle":
+            _require_ordered(descriptors["aspect_ratio"])
         return FAMILIES[family](**_frozen(descriptors))
     if kind == "outlines_file":
         return sources.OutlinesFile(_found(parameters["path"], folder, f"shapes.{kind}.path"))
@@ -176,6 +178,15 @@ def _shapes(data: dict[str, Any], folder: Path) -> ShapeSource:
     if "segmentation" in parameters:
         parameters["segmentation"] = _segmentation(parameters["segmentation"])
     return IMAGES[kind](**_frozen(parameters))
+
+
+def _require_ordered(aspect_ratio: list[float]) -> None:
+    least, largest = aspect_ratio
+    if least > largest:
+        raise InputError(
+            f"shapes.family.rectangle.aspect_ratio is {aspect_ratio}, but must go from the least "
+            "to the largest"
+        )
 
 
 def _segmentation(data: dict[str, Any]) -> sources.Segmentation:

@@ -6,14 +6,17 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 import yaml
 from jsonschema import Draft202012Validator
 
 from grainfront import laws, scene
+from grainfront.draw import coverage, draw_particles
 from grainfront.errors import InputError
 from grainfront.scene import load_scene, scene_schema
 from grainfront.shapes import sources
+from grainfront.shapes.database import build_database
 
 CONFIG = Path(__file__).parents[2] / "config"
 SHIPPED = sorted(CONFIG.glob("scenes/*.yaml"))
@@ -243,6 +246,11 @@ FAULTS = [
         "photographs: {paths: ['skimage:gravel'], segmentation: {block_size: 50}}",
         ["segmentation.block_size is 50", "odd"],
     ),
+    (
+        "regular_polygon: {}",
+        "rectangle: {aspect_ratio: [4, 1]}",
+        ["shapes.family.rectangle.aspect_ratio is [4, 1]", "least to the largest"],
+    ),
 ]
 
 
@@ -293,3 +301,21 @@ def test_reading_a_scene_imports_nothing_heavy():
         [sys.executable, "-c", code, str(path)], capture_output=True, text=True, check=True
     )
     assert done.stdout.strip() == "[]"
+
+
+@pytest.mark.parametrize("name", ["river_gravel", "tiny"])
+def test_shapes_of_a_shipped_scene_can_follow_its_laws(name):
+    """Every bin of the aspect ratio has a shape, and 15,000 grains follow both laws to 0.10 %."""
+    read = load_scene(CONFIG / "scenes" / f"{name}.yaml")
+    database = build_database(read.shapes, np.random.default_rng(read.seeds[0]))
+    descriptor, law = database.descriptors[read.matched[0]], read.matched[1]
+    assert coverage(descriptor, law).empty_bins == 0
+    shape, size = draw_particles(
+        database.count, read.size, 15_000, np.random.default_rng(1), (descriptor, law)
+    )
+    for prescribed, values in ((law, descriptor[shape]), (read.size, size)):
+        edges, p = prescribed.bins(24)
+        share = np.histogram(values, edges)[0] / values.size
+        assert np.sqrt(np.sum((share - p) ** 2)) <= 1e-3
+    grains = 0.85 * read.domain.area / np.mean(database.descriptors["hull_area"][shape] * size**2)
+    assert grains == pytest.approx({"river_gravel": 15_000, "tiny": 160}[name], rel=0.05)
