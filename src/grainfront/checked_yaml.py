@@ -13,6 +13,22 @@ import yaml
 
 from grainfront.errors import InputError
 
+# What the rules and types of JSON Schema allow, in words.
+LIMITS = {
+    "minimum": "at least",
+    "exclusiveMinimum": "greater than",
+    "maximum": "at most",
+    "enum": "one of",
+}
+TYPES = {
+    "object": "a mapping of keys to values",
+    "array": "a list",
+    "string": "text",
+    "number": "a number",
+    "integer": "a whole number",
+    "boolean": "true or false",
+}
+
 
 class _Loader(yaml.SafeLoader):
     """Safe loader that refuses repeated keys and reads 1e3 as the number that it is in YAML 1.2."""
@@ -110,26 +126,11 @@ def _sentence(error: Any) -> str:
         given = f"the keys {_keys(found)}" if found else "no key"
         allowed = _keys(error.schema["properties"])
         return f"{_dotted(keys)} has {given}, but must have exactly one of {allowed}"
-    limits = {
-        "minimum": "at least",
-        "exclusiveMinimum": "greater than",
-        "maximum": "at most",
-        "exclusiveMaximum": "less than",
-        "enum": "one of",
-    }
-    named_types = {
-        "object": "a mapping of keys to values",
-        "array": "a list",
-        "string": "text",
-        "number": "a number",
-        "integer": "a whole number",
-        "boolean": "true or false",
-    }
     value = error.validator_value
-    if rule in limits:
-        allowed = f"{limits[rule]} {_keys(value) if rule == 'enum' else format(value, 'g')}"
+    if rule in LIMITS:
+        allowed = f"{LIMITS[rule]} {_keys(value) if rule == 'enum' else format(value, 'g')}"
     elif rule == "type":
-        allowed = named_types[value]
+        allowed = TYPES[value]
     elif rule == "minItems":
         allowed = f"a list at least {value} long"
     elif rule == "maxItems":
