@@ -23,9 +23,11 @@ def read_outlines(path: str) -> tuple[Polygons, dict[str, int]]:
 
     `.geojson` and `.json`: a FeatureCollection, Feature, Polygon, MultiPolygon or
     GeometryCollection. `.wkt`: one POLYGON or MULTIPOLYGON a line. `.csv`: the columns outline, x
-    and y, one node a line; lines of the same `outline` are one polygon. Either sense of rotation; the first node may be
-    repeated at the end. Returns the polygons, counter-clockwise, in the units of the file, and the
-    counts `found`, `kept` and `hole`. Raises InputError naming the file and the place in it.
+    and y, one node a line; lines of the same `outline` are one polygon.
+
+    Either sense of rotation will do, and the first node may be repeated at the end. Returns the
+    polygons, counter-clockwise, in the units of the file, and the counts `found`, `kept` and
+    `hole`. Raises InputError naming the file and the place in it.
     """
     readers = {".geojson": _geojson, ".json": _geojson, ".wkt": _wkt, ".csv": _csv}
     suffix = Path(path).suffix.lower()
@@ -78,7 +80,8 @@ def _geojson(path: str, text: str) -> Iterator[Placed]:
         place = f"feature {number}"
         is_feature = isinstance(feature, dict) and feature.get("type") == "Feature"
         try:
-            geometry = shape(feature["geometry"] if is_feature else feature)
+            with np.errstate(invalid="ignore"):  # NaN is told with its place, below
+                geometry = shape(feature["geometry"] if is_feature else feature)
         except Exception as reason:  # shapely raises many kinds for malformed geometry
             raise InputError(f"{path}, {place}: not a GeoJSON geometry ({reason!r}).") from reason
         yield from _rings(path, place, geometry)

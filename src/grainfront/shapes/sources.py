@@ -98,8 +98,8 @@ class RandomConvexPolygons:
 class FourierGrains:
     """`count` outlines of `vertices` nodes, of a Fourier spectrum after Mollon & Zhao (2012).
 
-    `d2` (elongation), `d3` (main irregularities) and `d8` (roughness) are the normalised amplitudes of
-    the modes 2, 3 and 8; between and beyond them amplitudes decay by the powers `decay_3_8` and
+    `d2` (elongation), `d3` (main irregularities) and `d8` (roughness) are the normalised amplitudes
+    of the modes 2, 3 and 8; between and beyond them amplitudes decay by the powers `decay_3_8` and
     `decay_8_up` of the mode number; phases are random.
     """
 
