@@ -11,6 +11,7 @@ import hashlib
 import os
 import sys
 import tempfile
+import time
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
@@ -53,16 +54,35 @@ def cache_folder() -> Path:
     raise OSError(f"no writable folder for compiled kernels among {', '.join(map(str, folders))}")
 
 
+# Kernels work on the arrays they are given and allocate none, so that arrays need no reference
+# counts; counting them atomically would take most of the time of an advancing front.
+_OPTIONS: dict[str, Any] = {"error_model": "numpy", "_nrt": False}
+
+
 def kernel(function: Callable[..., Any]) -> Any:
     """Compile a kernel on first use and cache it on disk."""
     previous = numba.config.CACHE_DIR
     numba.config.CACHE_DIR = str(cache_folder())
     try:
-        return numba.njit(cache=True, nogil=True, error_model="numpy", _nrt=False)(function)
+        return numba.njit(cache=True, nogil=True, **_OPTIONS)(function)
     finally:
         numba.config.CACHE_DIR = previous
 
 
 def inlined(function: Callable[..., Any]) -> Any:
     """Compile a small kernel into each of its callers: arrays are not passed word by word."""
-    return numba.njit(forceinline=True, error_model="numpy", _nrt=False)(function)
+    return numba.njit(forceinline=True, **_OPTIONS)(function)
+
+
+def compile_once(name: str, compile_kernels: Callable[[], None]) -> float:
+    """Have kernels compiled, or read from the cache, and return the seconds it took.
+
+    A line on standard error says so where they are compiled for the first time.
+    """
+    compiled = cache_folder() / f"{name}.compiled"
+    if not compiled.exists():
+        print(f"Compiling the {name} kernels, once for this version …", file=sys.stderr, flush=True)
+    start = time.perf_counter()
+    compile_kernels()
+    compiled.touch()
+    return time.perf_counter() - start

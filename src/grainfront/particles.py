@@ -37,8 +37,8 @@ class Packing:
 
     Lengths are in the scene's unit, `orientation` in degrees in [0, 180). `x`, `y` are the centroids
     of the hulls. `polygons` are the hulls as packed or, after the replacement, the outlines; `area`
-    and `circumradius` (about (x, y)) are theirs. `shape` indexes the shape database. `left_over` counts the
-    particles that were drawn but found no place at the top (section 2 of the design of record).
+    and `circumradius` (about (x, y)) are theirs. `shape` indexes the shape database. `left_over`
+    counts the particles that were drawn but found no place.
     """
 
     domain: Rectangle

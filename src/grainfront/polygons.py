@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import NamedTuple
+from dataclasses import dataclass
 
 import numpy as np
 
 
-class Polygons(NamedTuple):
+@dataclass(frozen=True)
+class Polygons:
     """Simple polygons, counter-clockwise, the first node not repeated at the end.
 
     Polygon i has the nodes ``nodes[offsets[i]:offsets[i + 1]]``; `nodes` is float64 of shape
@@ -28,7 +29,7 @@ class Polygons(NamedTuple):
 
     @property
     def count(self) -> int:
-        """How many polygons there are (`len` of a named tuple counts its fields)."""
+        """How many polygons there are."""
         return self.offsets.size - 1
 
     @property

@@ -12,6 +12,8 @@ from grainfront.jit import inlined
 
 # Rounding turns an edge by about 1e-16; two edges that differ by less than this are parallel.
 PARALLEL = 1e-12
+# A guess that is not right after this many moves is given up.
+GUESS_MOVES = 12
 
 
 @inlined
@@ -43,11 +45,28 @@ def counterclockwise_edge(nodes, a0, na, i, trial, t0, nt, j):
 
 
 @inlined
+def crossing(nodes, ia, ib, trial, ja, jb, eax, eay, ebx, eby):
+    """Where two edges of no-fit polygons cross that end at the given nodes of A, N and of B, N.
+
+    The same edges give the same bits, however they were found.
+    """
+    pax = nodes[ia, 0] - trial[ja, 0] - eax
+    pay = nodes[ia, 1] - trial[ja, 1] - eay
+    wx = nodes[ib, 0] - trial[jb, 0] - ebx - pax
+    wy = nodes[ib, 1] - trial[jb, 1] - eby - pay
+    t = cross(wx, wy, ebx, eby) / cross(eax, eay, ebx, eby)
+    t = min(max(t, 0.0), 1.0)
+    return pax + t * eax, pay + t * eay
+
+
+@inlined
 def contact_with_polygons(nodes, a0, na, ia, b0, nb, ib, trial, t0, nt, hint):
-    """Centre of N in contact with A and B, to the left of A → B: (found, x, y, support vertex).
+    """Centre of N in contact with A and B, to the left of A → B.
 
     `ia`, `ib` are the vertices of their common tangent; `hint` is any vertex of N, best one close to
-    the support vertex that is returned.
+    the support vertex. Returns (found, x, y, ia, ja, ib, jb, slope_a, slope_b): the vertices of A, N
+    and B, N where the edges end that cross, and the y components of these edges, of A ⊕ −N clockwise
+    and of B ⊕ −N counter-clockwise.
     """
     pax = nodes[a0 + ia, 0]
     pay = nodes[a0 + ia, 1]
@@ -69,7 +88,7 @@ def contact_with_polygons(nodes, a0, na, ia, b0, nb, ib, trial, t0, nt, hint):
         if turn >= 0.0:
             along = eax * ebx + eay * eby
             if along >= 0.0 or turn > -PARALLEL * along:
-                return False, 0.0, 0.0, j  # the boundaries diverge without having crossed
+                return False, 0.0, 0.0, ia, j, ib, j, 0.0, 0.0  # the boundaries diverge without having crossed
         if depth_a <= depth_b:
             endx = pax + eax
             endy = pay + eay
@@ -79,7 +98,7 @@ def contact_with_polygons(nodes, a0, na, ia, b0, nb, ib, trial, t0, nt, hint):
             eax, eay, ia, ja = clockwise_edge(nodes, a0, na, ia, trial, t0, nt, ja)
             down = -cross(ux, uy, eax, eay)
             if down < -PARALLEL * abs(ux * eax + uy * eay):
-                return False, 0.0, 0.0, j  # the lower end of A ⊕ −N
+                return False, 0.0, 0.0, ia, j, ib, j, 0.0, 0.0  # the lower end of A ⊕ −N
             depth_a += down
         else:
             endx = pbx + ebx
@@ -90,11 +109,74 @@ def contact_with_polygons(nodes, a0, na, ia, b0, nb, ib, trial, t0, nt, hint):
             ebx, eby, ib, jb = counterclockwise_edge(nodes, b0, nb, ib, trial, t0, nt, jb)
             down = -cross(ux, uy, ebx, eby)
             if down < -PARALLEL * abs(ux * ebx + uy * eby):
-                return False, 0.0, 0.0, j  # the lower end of B ⊕ −N
+                return False, 0.0, 0.0, ia, j, ib, j, 0.0, 0.0  # the lower end of B ⊕ −N
             depth_b += down
-    t = cross(pbx - pax, pby - pay, ebx, eby) / cross(eax, eay, ebx, eby)
-    t = min(max(t, 0.0), 1.0)
-    return True, pax + t * eax, pay + t * eay, j
+    x, y = crossing(
+        nodes, a0 + ia, b0 + ib, trial, t0 + ja, t0 + jb, eax, eay, ebx, eby
+    )
+    return True, x, y, ia, ja, ib, jb, eay, eby
+
+
+@inlined
+def contact_from_guess(nodes, a0, na, ia, ja, b0, nb, ib, jb, trial, t0, nt):
+    """As `contact_with_polygons`, from a guess of the two edges that cross.
+
+    The guess is what was returned for a similar N: the vertices of A, N and B, N where the edges
+    end. It starts from the edges of A and B that end there and moves each along its no-fit polygon
+    until the two lines cross within both. Returns (found, x, y, ia, ja, ib, jb); not found where the
+    guess is too far off to tell.
+    """
+    ma, mb = ia, ib
+    ia = after(ia, na)
+    ib = before(ib, nb)
+    eax = nodes[a0 + ma, 0] - nodes[a0 + ia, 0]
+    eay = nodes[a0 + ma, 1] - nodes[a0 + ia, 1]
+    ebx = nodes[b0 + mb, 0] - nodes[b0 + ib, 0]
+    eby = nodes[b0 + mb, 1] - nodes[b0 + ib, 1]
+    ja = climb(trial, t0, nt, ja, eay, -eax)
+    jb = climb(trial, t0, nt, jb, -eby, ebx)
+    ka = ja
+    kb = jb
+    pax = nodes[a0 + ia, 0] - trial[t0 + ja, 0]
+    pay = nodes[a0 + ia, 1] - trial[t0 + ja, 1]
+    pbx = nodes[b0 + ib, 0] - trial[t0 + jb, 0]
+    pby = nodes[b0 + ib, 1] - trial[t0 + jb, 1]
+    for _ in range(GUESS_MOVES):
+        turn = cross(eax, eay, ebx, eby)
+        if turn >= 0.0:
+            break
+        wx = pbx - pax
+        wy = pby - pay
+        along_a = cross(wx, wy, ebx, eby)
+        along_b = cross(wx, wy, eax, eay)
+        if along_a < turn:
+            pax += eax
+            pay += eay
+            ia, ja = ma, ka
+            eax, eay, ma, ka = clockwise_edge(nodes, a0, na, ia, trial, t0, nt, ja)
+        elif along_b < turn:
+            pbx += ebx
+            pby += eby
+            ib, jb = mb, kb
+            ebx, eby, mb, kb = counterclockwise_edge(nodes, b0, nb, ib, trial, t0, nt, jb)
+        elif along_a > 0.0:
+            ma, ka = ia, ja
+            eax, eay, ia, ja = counterclockwise_edge(nodes, a0, na, ma, trial, t0, nt, ka)
+            pax += eax
+            pay += eay
+            eax, eay = -eax, -eay
+        elif along_b > 0.0:
+            mb, kb = ib, jb
+            ebx, eby, ib, jb = clockwise_edge(nodes, b0, nb, mb, trial, t0, nt, kb)
+            pbx += ebx
+            pby += eby
+            ebx, eby = -ebx, -eby
+        else:
+            x, y = crossing(
+                nodes, a0 + ma, b0 + mb, trial, t0 + ka, t0 + kb, eax, eay, ebx, eby
+            )
+            return True, x, y, ma, ka, mb, kb
+    return False, 0.0, 0.0, ia, ja, ib, jb
 
 
 @inlined

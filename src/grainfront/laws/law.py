@@ -41,16 +41,21 @@ class Law(ABC):
     def bins(self, n: int = 24) -> tuple[np.ndarray, np.ndarray]:
         """Edges (n + 1,) of n equal bins of the support, and their probabilities (n,).
 
-        The probabilities are those of the values within the support, so they add up to 1; where
-        the support is the central 99.9 %, compare them with shares of the particles within it.
-        A constant law has the single bin [value, value] of probability 1.
+        They add up to 1, or to 0.999 where the support is the central 99.9 %: compare them with
+        shares of all particles. A constant law has the single bin [value, value] of probability 1.
         """
         lower, upper = self.support
         if lower == upper:
             return np.array([lower, upper]), np.ones(1)
         edges = np.linspace(lower, upper, n + 1)
-        cumulative = self.cdf(edges)
-        return edges, np.diff(cumulative) / (cumulative[-1] - cumulative[0])
+        return edges, np.diff(self.cdf(edges))
+
+    def quantiles_within_support(self, n: int) -> np.ndarray:
+        """Values, (n + 1,), below which equal shares of the particles within the support lie."""
+        low, high = self.cdf(self.support)
+        if self.support[0] == self.support[1]:
+            low = high
+        return np.clip(self.quantile(np.linspace(low, high, n + 1)), *self.support)
 
     def moment(self, order: float) -> float:
         """Mean of the values raised to `order`."""

@@ -16,8 +16,11 @@ from grainfront.packing.trials import RESOLVED, TOO_HIGH
 # grain not to end the packing, few enough not to bend the size law.
 WAITING_PLACES = 8
 
-# What the loop remembers between calls.
-N_PLACED, N_DRAWN, N_WAITING, TURN, PLACED_IN_ROW, FINISHED, N_COUNTERS = range(7)
+# What the loop remembers between calls. PARKED of the waiting particles found no place in a whole
+# row, without the top being the reason: too wide for the domain, say. They are left for later rows.
+(
+    N_PLACED, N_DRAWN, N_WAITING, TURN, PARKED, PLACED_IN_ROW, TOO_HIGH_IN_ROW, FINISHED, N_COUNTERS,
+) = range(9)  # fmt: skip
 
 
 @inlined
@@ -44,26 +47,59 @@ def store(placed, front, grid, domain, supply, law, trials, source, number, x, y
 
 
 @inlined
-def pass_on(front, counters):
-    """Move on by one member; at the right wall begin a new row, or finish after an idle one."""
-    counters[TURN] = 0
-    if front.member[front.ends[1]] != RIGHT_WALL:
-        move_gap(front, front.ends[0] + 1)
-        return
-    if counters[PLACED_IN_ROW] == 0:
+def end_row(front, counters, n_waiting_places, supply_left):
+    """Begin a new row at the left wall, or finish where the last one placed nothing."""
+    if counters[PLACED_IN_ROW] > 0:
+        counters[PARKED] = 0
+    elif counters[TOO_HIGH_IN_ROW] == 0 and counters[PARKED] < counters[N_WAITING]:
+        counters[PARKED] += 1
+    else:
+        counters[FINISHED] = 1
+    if counters[PARKED] == n_waiting_places or (
+        counters[PARKED] == counters[N_WAITING] and not supply_left
+    ):
         counters[FINISHED] = 1
     counters[PLACED_IN_ROW] = 0
+    counters[TOO_HIGH_IN_ROW] = 0
+    counters[TURN] = counters[PARKED]
     move_gap(front, 1)
 
 
+@inlined
+def pass_on(front, counters, n_waiting_places, supply_left):
+    """Move on by one member of the front."""
+    if front.member[front.ends[1]] == RIGHT_WALL:
+        end_row(front, counters, n_waiting_places, supply_left)
+    else:
+        counters[TURN] = counters[PARKED]
+        move_gap(front, front.ends[0] + 1)
+
+
+@inlined
+def take_from_waiting(waiting, counters, turn):
+    """Remove a particle that has been placed from those that wait."""
+    counters[N_WAITING] -= 1
+    for n in range(turn, counters[N_WAITING]):
+        waiting[n] = waiting[n + 1]
+    counters[TURN] = counters[PARKED]
+
+
 @kernel
-def advance(front, placed, grid, domain, supply, law, trials, waiting, counters, memory, n_angle, n_loc, limit):
-    """Place particles until there are `limit` or the domain is full."""
+def advance(
+    front, placed, grid, domain, supply, law, trials, memory, waiting, counters, n_angle, n_loc, limit
+):
+    """Place particles until there are `limit` or the domain is full.
+
+    Without a memory the choice is exhaustive, which with one orientation and one pair is the plain
+    advancing front method.
+    """
+    places = waiting.size
     while counters[N_PLACED] < limit and not counters[FINISHED]:
         turn = counters[TURN]
+        supply_left = counters[N_DRAWN] < supply.size.size
         if turn == counters[N_WAITING]:
-            if turn == waiting.size or counters[N_DRAWN] == supply.size.size:
-                pass_on(front, counters)
+            if turn == places or not supply_left:
+                pass_on(front, counters, places, supply_left)
                 continue
             waiting[turn] = counters[N_DRAWN]
             counters[N_DRAWN] += 1
@@ -85,13 +121,11 @@ def advance(front, placed, grid, domain, supply, law, trials, waiting, counters,
             store(placed, front, grid, domain, supply, law, trials, source, number, x, y, angle, i, k)
             counters[N_PLACED] += 1
             counters[PLACED_IN_ROW] += 1
-            counters[N_WAITING] -= 1
-            for n in range(turn, counters[N_WAITING]):
-                waiting[n] = waiting[n + 1]
-            counters[TURN] = 0
+            take_from_waiting(waiting, counters, turn)
             if at_right_wall:
-                pass_on(front, counters)
+                end_row(front, counters, places, supply_left)
         elif status == TOO_HIGH:
+            counters[TOO_HIGH_IN_ROW] += 1
             counters[TURN] += 1
         else:
-            pass_on(front, counters)
+            pass_on(front, counters, places, supply_left)

@@ -4,12 +4,34 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from grainfront.jit import inlined
+from grainfront.packing.state import OrientationLaw
+
+
+# The quantile table of an orientation law holds this many steps a bin.
+STEPS_A_BIN = 256
+
+
+def orientation_law(probabilities: np.ndarray, quantile: np.ndarray) -> OrientationLaw:
+    """The law of the orientations as the kernel takes it, with nothing placed yet.
+
+    `probabilities`, (n_bin,), are those of equal bins of the law's support; `quantile`,
+    (n_table,), the orientations in degrees at equally spaced probabilities over the support. A step
+    of the table over more than a bin is a gap in the law.
+    """
+    probabilities = probabilities / probabilities.sum()
+    cumulative = np.concatenate([[0.0], np.cumsum(probabilities)])
+    bin_width = (quantile[-1] - quantile[0]) / probabilities.size
+    return OrientationLaw(
+        probabilities, cumulative, quantile, bin_width, np.zeros(probabilities.size, dtype=np.int64)
+    )
 
 
 @inlined
 def draw_orientations(law, trials, n_angle, n_placed, uniform):
-    """Draw `n_angle` orientations, ascending, by systematic sampling of the bins' deficits.
+    """Draw `n_angle` orientations in [0, 180) by systematic sampling of the bins' deficits.
 
     The deficit of a bin is what it lacks once one more particle is placed; bins that have their
     share already offer nothing.
@@ -31,7 +53,13 @@ def draw_orientations(law, trials, n_angle, n_placed, uniform):
         u = law.cumulative[b] + within * (law.cumulative[b + 1] - law.cumulative[b])
         i = min(int(u * last), last - 1)
         low = law.quantile[i]
-        trials.orientation[a] = low + (u * last - i) * (law.quantile[i + 1] - low)
+        rise = law.quantile[i + 1] - low
+        part = u * last - i
+        if rise > law.largest_rise:
+            part = round(part)  # nothing between: a gap of the law
+        orientation = low + part * rise
+        orientation -= 180.0 * math.floor(orientation / 180.0)
+        trials.orientation[a] = orientation if orientation < 180.0 else 0.0
         trials.bin[a] = b
 
 

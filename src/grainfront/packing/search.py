@@ -1,16 +1,20 @@
-"""The choice of exhaustive search at a fraction of its cost."""
+"""The choice of exhaustive search at a fraction of its cost.
+
+Three means: an incumbent (a trial only rises while its pair widens), a memory of what the step has
+seen (trials that meet at the same pair in the same orientation end at the same place), and the
+scout's bounds: pairs are taken lowest bound first until the bound passes the incumbent.
+"""
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 
-from grainfront.geometry.contact import contact_with_polygons
-from grainfront.geometry.tangent import common_tangent
+from grainfront.geometry.contact import contact_from_guess
 from grainfront.jit import inlined
 from grainfront.packing.exhaustive import lower
 from grainfront.packing.front import front_length, member_at
+from grainfront.packing.memory import WIDTHS, contact_from_tangent, remember_tangent
+from grainfront.packing.scout import bound_pairs, shape_scout
 from grainfront.packing.state import Trial
 from grainfront.packing.trials import (
     BLOCKED,
@@ -22,59 +26,33 @@ from grainfront.packing.trials import (
     overlapped,
 )
 
-# Pairs wider than this are rare; they are computed afresh.
-WIDTHS = 12
-
-
-class Memory(NamedTuple):
-    """What one step has found out about the pairs around the gap; entries of older steps are void.
-
-    Pairs are indexed by the position of their first member from the window's start and by width.
-    """
-
-    step: np.ndarray  # (1,) number of the current step
-    known: np.ndarray  # (n_window, WIDTHS) step in which the tangent was found
-    tangent: np.ndarray  # (n_window, WIDTHS, 3) its vertices on A and B, and N's support vertex
-    seen: np.ndarray  # (n_window, WIDTHS, n_angle) step in which the trial was looked at
-
-
-def make_memory(n_angle: int, n_loc: int) -> Memory:
-    """Memory for the local front of 2 n_loc members and the pairs that reach beyond it."""
-    n_window = 2 * n_loc + 2 * WIDTHS
-    return Memory(
-        np.zeros(1, dtype=np.int64),
-        np.zeros((n_window, WIDTHS), dtype=np.int64),
-        np.empty((n_window, WIDTHS, 3), dtype=np.int64),
-        np.zeros((n_window, WIDTHS, n_angle), dtype=np.int64),
-    )
+# Nodes from which on starting from the contact of the trial before is quicker than from the tangent.
+GUESS_FROM = 8
 
 
 @inlined
-def remembered_contact(front, placed, domain, trials, trial, memory, base, i, k):
-    """As `contact_of_pair`, with the tangent and the last support vertex kept in memory."""
-    a = member_at(front, i)
-    b = member_at(front, k)
-    row = i - base
-    width = k - i - 1
-    if a < 0 or b < 0 or row < 0 or width >= WIDTHS:
-        return contact_of_pair(placed, domain, trials, trial, a, b)
-    a0, b0 = placed.offsets[a], placed.offsets[b]
-    na, nb = placed.offsets[a + 1] - a0, placed.offsets[b + 1] - b0
-    tangent = memory.tangent
-    if memory.known[row, width] != memory.step[0]:
-        memory.known[row, width] = memory.step[0]
-        disc = placed.disc
-        va, vb = common_tangent(
-            placed.nodes, a0, na, disc[a, 0], disc[a, 1], b0, nb, disc[b, 0], disc[b, 1]
+def remembered_contact(placed, trials, trial, memory, a, b, row, width):
+    """As `contact_of_pair` for particles, guessing from the trial before at the same pair."""
+    remember_tangent(placed, memory, a, b, row, width)
+    guess = memory.guess
+    found = False
+    x = y = 0.0
+    if trial.count >= GUESS_FROM and guess[row, width, 0] >= 0:
+        a0, b0 = placed.offsets[a], placed.offsets[b]
+        na, nb = placed.offsets[a + 1] - a0, placed.offsets[b + 1] - b0
+        found, x, y, ia, ja, ib, jb = contact_from_guess(
+            placed.nodes, a0, na, guess[row, width, 0], guess[row, width, 1],
+            b0, nb, guess[row, width, 2], guess[row, width, 3],
+            trials.nodes, trial.start, trial.count,
+        )  # fmt: skip
+    if not found:
+        found, x, y, ia, ja, ib, jb, _, _ = contact_from_tangent(
+            placed, trials, trial, memory, a, b, row, width
         )
-        tangent[row, width, 0] = va
-        tangent[row, width, 1] = vb
-        tangent[row, width, 2] = 0
-    found, x, y, support = contact_with_polygons(
-        placed.nodes, a0, na, tangent[row, width, 0], b0, nb, tangent[row, width, 1],
-        trials.nodes, trial.start, trial.count, tangent[row, width, 2],
-    )  # fmt: skip
-    tangent[row, width, 2] = support
+    guess[row, width, 0] = ia
+    guess[row, width, 1] = ja
+    guess[row, width, 2] = ib
+    guess[row, width, 3] = jb
     return found, x, y
 
 
@@ -88,11 +66,17 @@ def resolve_below(front, placed, grid, domain, trials, trial, memory, base, i, k
     while True:
         row = i - base
         width = k - i - 1
-        if row >= 0 and width < WIDTHS:
+        a = member_at(front, i)
+        b = member_at(front, k)
+        in_memory = row >= 0 and width < WIDTHS
+        if in_memory:
             if memory.seen[row, width, trial.angle] == memory.step[0]:
                 return BLOCKED, 0.0, 0.0, i, k
             memory.seen[row, width, trial.angle] = memory.step[0]
-        found, x, y = remembered_contact(front, placed, domain, trials, trial, memory, base, i, k)
+        if in_memory and a >= 0 and b >= 0:
+            found, x, y = remembered_contact(placed, trials, trial, memory, a, b, row, width)
+        else:
+            found, x, y = contact_of_pair(placed, domain, trials, trial, a, b)
         if not found or y > ceiling:
             return BLOCKED, 0.0, 0.0, i, k
         if y + trials.reach[trial.angle, 3] > domain.y_max + domain.tolerance:
@@ -109,6 +93,17 @@ def resolve_below(front, placed, grid, domain, trials, trial, memory, base, i, k
 
 
 @inlined
+def sort_pairs(memory, n_pairs):
+    """Order the pairs by their bounds, lowest first (insertion sort: few and nearly in order)."""
+    for p in range(n_pairs):
+        m = p
+        while m > 0 and memory.bound[memory.order[m - 1]] > memory.bound[p]:
+            memory.order[m] = memory.order[m - 1]
+            m -= 1
+        memory.order[m] = p
+
+
+@inlined
 def choose_lowest(front, placed, grid, domain, trials, memory, particle, n_angle, n_loc):
     """The resolved trial of least potential energy: (status, x, y, i, k, angle)."""
     count, circumradius, inradius = particle
@@ -116,10 +111,17 @@ def choose_lowest(front, placed, grid, domain, trials, memory, particle, n_angle
     first = max(front.ends[0] - n_loc, 0)
     last = min(front.ends[0] + n_loc - 2, front_length(front) - 2)
     base = first - WIDTHS
+    scout = shape_scout(trials, n_angle * count, n_angle, inradius)
+    bound_pairs(front, placed, domain, trials, scout, memory, base, first, last)
+    sort_pairs(memory, last + 1 - first)
     status = BLOCKED
     best_x = best_y = np.inf
     best_i = best_k = best_angle = -1
-    for i in range(first, last + 1):
+    for n in range(last + 1 - first):
+        p = memory.order[n]
+        if memory.bound[p] > best_y:
+            break
+        i = first + p
         for angle in range(n_angle):
             trial = Trial(angle * count, count, angle, circumradius, inradius)
             outcome, x, y, at_i, at_k = resolve_below(

@@ -50,6 +50,7 @@ class OrientationLaw(NamedTuple):
     probability: np.ndarray  # (n_bin,)
     cumulative: np.ndarray  # (n_bin + 1,)
     quantile: np.ndarray  # (n_table,) at equally spaced probabilities from 0 to 1
+    largest_rise: float  # of the table between neighbours, in degrees; beyond it lies a gap
     placed: np.ndarray  # (n_bin,) how many particles each bin has so far
 
 
@@ -83,9 +84,9 @@ class Front(NamedTuple):
 class Trials(NamedTuple):
     """The particle to be placed in all its trial orientations, inflated by the clearance."""
 
-    nodes: np.ndarray  # (n_angle × largest node count, 2), relative to the centre
+    nodes: np.ndarray  # (n_angle × largest node count + scout, 2), relative to the centre
     reach: np.ndarray  # (n_angle, 4) from the centre to the left, bottom, right and top
-    orientation: np.ndarray  # (n_angle,) degrees, ascending
+    orientation: np.ndarray  # (n_angle,) degrees
     bin: np.ndarray  # (n_angle,)
     weight: np.ndarray  # (n_bin + 1,) work space: cumulative deficits
 

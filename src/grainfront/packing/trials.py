@@ -37,7 +37,7 @@ def contact_of_pair(placed, domain, trials, trial, a, b):
         i, j = common_tangent(
             nodes, a0, na, disc[a, 0], disc[a, 1], b0, nb, disc[b, 0], disc[b, 1]
         )
-        found, x, y, _ = contact_with_polygons(
+        found, x, y, _, _, _, _, _, _ = contact_with_polygons(
             nodes, a0, na, i, b0, nb, j, trials.nodes, trial.start, trial.count, 0
         )
         return found, x, y

@@ -1,0 +1,82 @@
+"""What one step of the optimised advancing front finds out about the pairs around the gap."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from grainfront.geometry.contact import contact_with_polygons
+from grainfront.geometry.tangent import common_tangent
+from grainfront.jit import inlined
+
+# Pairs wider than this are rare; they are computed afresh.
+WIDTHS = 12
+# How far, in pairs, a place of the scout bounds the pairs beside those it covers: with 1 the choice
+# differed from exhaustive search's in 0.01–0.1 % of the steps.
+SCOUT_MARGIN = 2
+
+
+class Memory(NamedTuple):
+    """What one step has found out about the pairs around the gap; entries of older steps are void.
+
+    Pairs are indexed by the position of their first member from the window's start and by width.
+    """
+
+    step: np.ndarray  # (1,) number of the current step
+    known: np.ndarray  # (n_window, WIDTHS) step in which the tangent was found
+    tangent: np.ndarray  # (n_window, WIDTHS, 2) its vertices on A and B
+    guess: np.ndarray  # (n_window, WIDTHS, 4) vertices of A, N, B and N where the last trial touched
+    seen: np.ndarray  # (n_window, WIDTHS, n_angle) step in which the trial was looked at
+    height: np.ndarray  # (n_pairs,) of the scout, resolved from each pair
+    reach: np.ndarray  # (n_pairs, 2) first and last pair that this place covers
+    falls: np.ndarray  # (n_pairs, 2) whether the front falls outward from it, left and right
+    bound: np.ndarray  # (n_pairs,) below which no trial from the pair gets
+    order: np.ndarray  # (n_pairs,) pairs, lowest bound first
+
+
+def make_memory(n_angle: int, n_loc: int) -> Memory:
+    """Memory for the local front of 2 n_loc members and the pairs that reach beyond it."""
+    n_window = 2 * n_loc + 2 * WIDTHS
+    n_pairs = 2 * (n_loc + SCOUT_MARGIN)
+    return Memory(
+        np.zeros(1, dtype=np.int64),
+        np.zeros((n_window, WIDTHS), dtype=np.int64),
+        np.empty((n_window, WIDTHS, 2), dtype=np.int64),
+        np.empty((n_window, WIDTHS, 4), dtype=np.int64),
+        np.zeros((n_window, WIDTHS, n_angle), dtype=np.int64),
+        np.empty(n_pairs),
+        np.empty((n_pairs, 2), dtype=np.int64),
+        np.empty((n_pairs, 2), dtype=np.bool_),
+        np.empty(n_pairs),
+        np.empty(n_pairs, dtype=np.int64),
+    )
+
+
+@inlined
+def remember_tangent(placed, memory, a, b, row, width):
+    """Find the common tangent of the particles a and b, once a step."""
+    if memory.known[row, width] != memory.step[0]:
+        memory.known[row, width] = memory.step[0]
+        a0, b0 = placed.offsets[a], placed.offsets[b]
+        na, nb = placed.offsets[a + 1] - a0, placed.offsets[b + 1] - b0
+        disc = placed.disc
+        va, vb = common_tangent(
+            placed.nodes, a0, na, disc[a, 0], disc[a, 1], b0, nb, disc[b, 0], disc[b, 1]
+        )
+        memory.tangent[row, width, 0] = va
+        memory.tangent[row, width, 1] = vb
+        memory.guess[row, width, 0] = -1
+
+
+@inlined
+def contact_from_tangent(placed, trials, trial, memory, a, b, row, width):
+    """`contact_with_polygons` of the particles a and b, from the tangent in memory."""
+    remember_tangent(placed, memory, a, b, row, width)
+    a0, b0 = placed.offsets[a], placed.offsets[b]
+    na, nb = placed.offsets[a + 1] - a0, placed.offsets[b + 1] - b0
+    tangent = memory.tangent
+    return contact_with_polygons(
+        placed.nodes, a0, na, tangent[row, width, 0], b0, nb, tangent[row, width, 1],
+        trials.nodes, trial.start, trial.count, 0,
+    )  # fmt: skip
