@@ -182,9 +182,9 @@ def _supply(
 def _packing(
     state: State,
     hull_area: np.ndarray,
+    aspect_ratio: np.ndarray,
     shape: np.ndarray,
     size: np.ndarray,
-    aspect_ratio: np.ndarray,
     domain: Rectangle,
 ) -> Packing:
     n = int(state.counters[N_PLACED])
