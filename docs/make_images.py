@@ -1,0 +1,49 @@
+"""Draw the pictures of the README from the scene river_gravel: `python docs/make_images.py`."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+
+from matplotlib.figure import Figure
+from PIL import Image
+
+from grainfront import api, figures
+from grainfront.shapes.images import find_outlines
+
+ROOT = Path(__file__).parents[1]
+IMAGES = Path(__file__).parent / "images"
+DPI = 130
+COLOURS = 96  # enough for the maps of size, and half the bytes
+
+
+def main() -> None:
+    """Pack the gravel and draw the photograph and the packing."""
+    scene = api.load_scene(ROOT / "config" / "scenes" / "river_gravel.yaml")
+    database = api.build_shapes(scene)
+    packing, _ = api.pack(scene, database, scene.seeds[0])
+    outlines = api.replace(packing, database)
+    fraction, _ = api.volume_fractions(outlines)
+    found = find_outlines(scene.shapes)[0]
+    draw = {
+        "photograph": figures.photograph(
+            found.image, found.outlines, title="gravel, the photograph inside scikit-image"
+        ),
+        "packing": figures.packing(
+            packing, outlines, length_unit=scene.length_unit, volume_fraction=fraction
+        ),
+    }
+    for name, figure in draw.items():
+        save_small(figure, IMAGES / f"{name}.png")
+
+
+def save_small(figure: Figure, path: Path) -> None:
+    """Write a figure with the resolution and the colours that a page needs."""
+    drawn = io.BytesIO()
+    figure.savefig(drawn, format="png", dpi=DPI, bbox_inches="tight", pad_inches=0.05)
+    image = Image.open(drawn).convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE)
+    image.save(path, optimize=True)
+
+
+if __name__ == "__main__":
+    main()
