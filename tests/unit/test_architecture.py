@@ -9,7 +9,6 @@ import ast
 import re
 import subprocess
 import sys
-import tomllib
 from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
@@ -215,15 +214,6 @@ def test_workflow_scripts_only_call_the_package():
         if found.module.split(".")[0] not in {"grainfront", "snakemake", *sys.stdlib_module_names}
     ]
     assert foreign == []
-
-
-def test_the_readme_gives_each_dependency_its_reason():
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    required = [re.match(r"[\w-]+", line)[0] for line in project["dependencies"]]
-    readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    table = re.search(r"\| dependency \| .*?\n\|[-|]+\n((?:\|.*\n)+)", readme)
-    assert table is not None
-    assert re.findall(r"^\| ([\w-]+) \|", table[1], flags=re.MULTILINE) == required
 
 
 # Words that tie a checkout to a package registry or to one machine, or that readers cannot follow.
