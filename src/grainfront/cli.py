@@ -1,0 +1,139 @@
+"""The command line: one packing, or one shape database, without the workflow."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from grainfront import api
+from grainfront.errors import InputError
+from grainfront.scene import IMAGES
+from grainfront.shapes import sources
+from grainfront.shapes.sources import ShapeSource
+
+FAULTY_INPUT = 2
+
+OUTLINE_SUFFIXES = (".geojson", ".json", ".wkt", ".csv")
+SCENE_SUFFIXES = (".yaml", ".yml")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line; the exit status: 0, or 2 where the input or the output is at fault."""
+    options = _parser().parse_args(arguments)
+    try:
+        options.run(options)
+    except (InputError, OSError) as error:
+        print(api.sentence(error), file=sys.stderr)
+        return FAULTY_INPUT
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="grainfront", description="Dense, overlap-free packings of irregular grains."
+    )
+    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+
+    pack = commands.add_parser(
+        "pack",
+        help="pack the grains of a scene",
+        description="Pack the grains of a scene, certify the packing and write its hulls. The "
+        "workflow (snakemake) also writes outlines, contacts, statistics and pictures.",
+    )
+    pack.add_argument("scene", metavar="SCENE.yaml", help="the scene")
+    pack.add_argument(
+        "-o", "--output", required=True, metavar="packing.nc", help="where the packing goes"
+    )
+    pack.add_argument(
+        "--seed",
+        type=_seed,
+        metavar="N",
+        help="seed; that of the scene, or its first, if not given",
+    )
+    pack.add_argument("--json", action="store_true", help="print the result as one JSON object")
+    pack.set_defaults(run=_pack)
+
+    shapes = commands.add_parser(
+        "shapes",
+        help="build a shape database",
+        description="Standardise the shapes of a source and tell what was found.",
+    )
+    shapes.add_argument(
+        "source",
+        metavar="SOURCE",
+        help="an image, an outlines file (.geojson, .json, .wkt, .csv), skimage:gravel, or a "
+        "scene (.yaml), whose shapes are built",
+    )
+    shapes.add_argument(
+        "--kind", choices=IMAGES, default="photographs", help="what an image is (photographs)"
+    )
+    shapes.add_argument(
+        "-o", "--output", required=True, metavar="shapes.nc", help="where the database goes"
+    )
+    shapes.set_defaults(run=_shapes)
+    return parser
+
+
+def _seed(text: str) -> int:
+    seed = int(text)
+    if seed < 0:
+        raise argparse.ArgumentTypeError(f"{seed} is negative; allowed are whole numbers from 0 on")
+    return seed
+
+
+def _pack(options: argparse.Namespace) -> None:
+    scene = api.load_scene(options.scene)
+    seed = scene.seeds[0] if options.seed is None else options.seed
+    api.require_writable(options.output)
+    database = api.build_shapes(scene)
+    api.warn_of_uncovered(scene, database)
+    with api.progress_bar() as progress:
+        packing, run_time = api.pack(scene, database, seed, progress)
+    api.require_certificate(options.output, packing)
+    api.write_packing(options.output, packing, scene, seed)
+
+    fraction, bulk = api.volume_fractions(packing)
+    result = {
+        "particles": packing.x.size,
+        "volume_fraction": fraction,
+        "volume_fraction_bulk": bulk if math.isfinite(bulk) else None,
+        "kernel_s": run_time.kernel_s,
+        "compile_s": run_time.compile_s,
+        "left_over": packing.left_over,
+    }
+    if options.json:
+        print(json.dumps(result))
+    else:
+        print(
+            f"{result['particles']:,} particles at a volume fraction of {fraction:.4f} "
+            f"({bulk:.4f} away from the walls), packed in {run_time.kernel_s:.2f} s; "
+            f"{packing.left_over} left over; certified; written to {options.output}"
+        )
+
+
+def _shapes(options: argparse.Namespace) -> None:
+    api.require_writable(options.output)
+    source = _source(options.source, options.kind)
+    database = api.build_shapes_of(source)
+    api.write_shapes(options.output, database, source)
+    for what, count in database.counts.items():
+        print(f"{what.replace('_', ' ')}: {count}")
+    print(f"{database.count} shapes written to {options.output}")
+
+
+def _source(text: str, kind: str) -> ShapeSource:
+    """The source that a path names: a scene and outlines by their suffixes, else an image."""
+    suffix = Path(text).suffix.lower()
+    if suffix in SCENE_SUFFIXES:
+        return api.load_scene(text).shapes
+    if suffix in OUTLINE_SUFFIXES:
+        return sources.OutlinesFile(text)
+    return IMAGES[kind]((text,))
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

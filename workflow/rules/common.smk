@@ -1,0 +1,78 @@
+# The scenes, checked; what each of them asks for; and on what the results of each stage depend.
+
+import json
+from pathlib import Path
+
+import yaml
+from snakemake.exceptions import WorkflowError
+
+from grainfront import api, stages
+from grainfront.checked_yaml import parse_checked, read_text
+from grainfront.errors import InputError
+
+
+wildcard_constraints:
+    scene="[A-Za-z0-9_-]+",
+    seed="[0-9]+",
+    particles="packing|nonconvex",
+    kind="|_nonconvex",
+
+
+# The files of the hulls as packed and of the outlines that replaced them differ by these endings.
+KINDS = {"": "packing", "_nonconvex": "nonconvex"}
+PICTURES = ["packing", "laws", "contacts", "rose"]
+
+
+def scene_file(scene):
+    return f"config/scenes/{scene}.yaml"
+
+
+def read_scenes():
+    """The scenes that the configuration names; InputError where a file is at fault."""
+    schema = json.loads(read_text(Path(workflow.basedir) / "config/config.schema.json"))
+    found = parse_checked(yaml.safe_dump(dict(config)), schema, "config/config.yaml")
+    return {name: api.load_scene(scene_file(name)) for name in found["scenes"]}
+
+
+try:
+    SCENES = read_scenes()
+except InputError as error:
+    raise WorkflowError(api.sentence(error)) from None
+
+
+def kinds_of(scene):
+    """The hulls as packed and, with replacement, the outlines."""
+    return list(KINDS) if scene.replacement else [""]
+
+
+def image_files(wildcards):
+    """The files that the shapes of a scene come from; a photograph of scikit-image is none."""
+    source = SCENES[wildcards.scene].shapes
+    paths = [source.path] if hasattr(source, "path") else getattr(source, "paths", [])
+    return [path for path in paths if not path.startswith("skimage:")]
+
+
+def has_images(scene):
+    return isinstance(scene.shapes, api.ImageSource)
+
+
+def results_of(scene):
+    """Every file that a scene asks for."""
+    folder = f"results/{scene.name}"
+    for kind in kinds_of(scene):
+        yield f"{folder}/statistics{kind}.nc"
+        for seed in scene.seeds:
+            yield f"{folder}/{seed}/{KINDS[kind]}.nc"
+            yield f"{folder}/{seed}/contacts{kind}.nc"
+            if "vtk" in scene.outputs:
+                yield f"{folder}/{seed}/{KINDS[kind]}.vtp"
+    if "figures" in scene.outputs:
+        pictures = PICTURES + ["photograph"] * has_images(scene)
+        yield from (f"{folder}/figures/{picture}.png" for picture in pictures)
+
+
+def of_scene(*fields):
+    """A param of a rule: the fields of the scene that its results depend on."""
+    return lambda wildcards: repr(
+        [getattr(SCENES[wildcards.scene], name) for name in fields]
+    )
