@@ -19,6 +19,7 @@ __all__ = [
     "load_scene",
     "measure",
     "pack",
+    "progress_bar",
     "replace",
     "shape_coverage",
     "write_packing",

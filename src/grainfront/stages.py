@@ -22,14 +22,15 @@ P = ParamSpec("P")
 _PACKAGE = Path(__file__).parent
 _ALWAYS = ("__init__", "api", "checked_yaml", "errors", "particles", "polygons", "scene", "stages")
 _FILES = ("files.atomic", "files.contract", "files.dataset", "files.netcdf", "files.schema")
+_DATABASE = ("shapes.database", "shapes.descriptors")
 _LAWS = ("laws", "shapes.sources", *_ALWAYS)
 SOURCES = {
-    "shapes": ("shapes", "laws", *_FILES, *_ALWAYS),
-    "packing": ("draw", "geometry", "jit", "packing", "shapes.database", *_FILES, *_LAWS),
-    "replacement": ("geometry", "jit", "replacement", "shapes.database", *_FILES, *_LAWS),
+    "shapes": ("draw", "shapes", "laws", *_FILES, *_ALWAYS),
+    "packing": ("draw", "geometry", "jit", "packing", *_DATABASE, *_FILES, *_LAWS),
+    "replacement": ("geometry", "jit", "replacement", *_DATABASE, *_FILES, *_LAWS),
     "contacts": ("geometry", "jit", "statistics", *_FILES, *_LAWS),
     "statistics": (
-        "certificate", "geometry", "jit", "statistics", "files.statistics", "shapes.database",
+        "certificate", "geometry", "jit", "statistics", "files.statistics", *_DATABASE,
         *_FILES, *_LAWS,
     ),
     "vtk": ("files.vtk", *_FILES, *_LAWS),
@@ -75,10 +76,9 @@ def shapes(*, scene: str, database: str) -> None:
 
 
 @stage
-def kernels(*, method: str, compiled: str) -> None:
+def kernels(*, method: str) -> None:
     """Compile all that packings by a method need, once, before they run side by side."""
     api.compile_kernels(method)
-    Path(compiled).touch()
 
 
 @stage
@@ -169,7 +169,7 @@ def photograph(*, scene: str, picture: str) -> None:
 
 
 @stage
-def pictures(
+def figures(
     *,
     length_unit: str,
     hulls: str,

@@ -1,10 +1,10 @@
 # The scenes, checked; what each of them asks for; and on what the results of each stage depend.
 
 import json
+import sys
 from pathlib import Path
 
 import yaml
-from snakemake.exceptions import WorkflowError
 
 from grainfront import api, stages
 from grainfront.checked_yaml import parse_checked, read_text
@@ -37,7 +37,7 @@ def read_scenes():
 try:
     SCENES = read_scenes()
 except InputError as error:
-    raise WorkflowError(api.sentence(error)) from None
+    sys.exit(api.sentence(error))
 
 
 def kinds_of(scene):

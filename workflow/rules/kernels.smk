@@ -1,10 +1,12 @@
 # Machine code, compiled once, before the packings that need it start side by side.
 
 
-# The marker is temporary: it is made again, in a second, whenever something is to be packed.
+# Runs again with the sources of the packing; packings made already do not mind (`ancient`).
 rule kernels:
     output:
-        compiled=temp("results/.{method}.compiled"),
+        compiled=touch("results/.{method}.compiled"),
+    params:
+        sources=stages.sources_digest("packing"),
     wildcard_constraints:
         method="AFM|OAFM",
     message:

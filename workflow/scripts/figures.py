@@ -1,6 +1,6 @@
 from grainfront import stages
 
-stages.pictures(
+stages.figures(
     length_unit=snakemake.params.length_unit,
     hulls=snakemake.input.hulls,
     outlines=snakemake.input.get("outlines"),

@@ -1,3 +1,3 @@
 from grainfront import stages
 
-stages.kernels(method=snakemake.wildcards.method, compiled=snakemake.output.compiled)
+stages.kernels(method=snakemake.wildcards.method)
