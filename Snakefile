@@ -19,3 +19,5 @@ rule all:
     default_target: True
     input:
         [path for scene in SCENES.values() for path in results_of(scene)],
+    message:
+        "everything is there, below results/"
