@@ -35,7 +35,7 @@ class Rectangle:
 class Packing:
     """Placed particles, in order of placement; arrays have shape (n_particles,).
 
-    Lengths are in the scene's unit, `orientation` in degrees in [0, 180). `x`, `y` are the centroids
+    Lengths are in the scene's unit, `orientation` in degrees in [0, 180); (`x`, `y`) are centroids
     of the hulls. `polygons` are the hulls as packed or, after the replacement, the outlines; `area`
     and `circumradius` (about (x, y)) are theirs. `shape` indexes the shape database. `left_over`
     counts the particles that were drawn but found no place.

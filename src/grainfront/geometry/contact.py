@@ -2,7 +2,8 @@
 
 The centre of a particle N that slides round A moves on the boundary of the no-fit polygon A ⊕ −N
 (Du et al. 2023, section 3). The boundaries of A ⊕ −N and B ⊕ −N leave their common tangent
-downwards; both are walked edge by edge until they cross. Coordinates of N are relative to its centre.
+downwards; both are walked edge by edge until they cross. Coordinates of N are relative to its
+centre.
 """
 
 from __future__ import annotations
@@ -63,10 +64,9 @@ def crossing(nodes, ia, ib, trial, ja, jb, eax, eay, ebx, eby):
 def contact_with_polygons(nodes, a0, na, ia, b0, nb, ib, trial, t0, nt, hint):
     """Centre of N in contact with A and B, to the left of A → B.
 
-    `ia`, `ib` are the vertices of their common tangent; `hint` is any vertex of N, best one close to
-    the support vertex. Returns (found, x, y, ia, ja, ib, jb, slope_a, slope_b): the vertices of A, N
-    and B, N where the edges end that cross, and the y components of these edges, of A ⊕ −N clockwise
-    and of B ⊕ −N counter-clockwise.
+    `ia`, `ib` are the vertices of their common tangent; `hint` is any vertex of N, best one close
+    to the support vertex. Returns (found, x, y, ia, ja, ib, jb), with the vertices of A, N and of
+    B, N where the edges end that cross.
     """
     pax = nodes[a0 + ia, 0]
     pay = nodes[a0 + ia, 1]
@@ -88,7 +88,15 @@ def contact_with_polygons(nodes, a0, na, ia, b0, nb, ib, trial, t0, nt, hint):
         if turn >= 0.0:
             along = eax * ebx + eay * eby
             if along >= 0.0 or turn > -PARALLEL * along:
-                return False, 0.0, 0.0, ia, j, ib, j, 0.0, 0.0  # the boundaries diverge without having crossed
+                return (
+                    False,
+                    0.0,
+                    0.0,
+                    ia,
+                    j,
+                    ib,
+                    j,
+                )  # the boundaries diverge without having crossed
         if depth_a <= depth_b:
             endx = pax + eax
             endy = pay + eay
@@ -98,7 +106,7 @@ def contact_with_polygons(nodes, a0, na, ia, b0, nb, ib, trial, t0, nt, hint):
             eax, eay, ia, ja = clockwise_edge(nodes, a0, na, ia, trial, t0, nt, ja)
             down = -cross(ux, uy, eax, eay)
             if down < -PARALLEL * abs(ux * eax + uy * eay):
-                return False, 0.0, 0.0, ia, j, ib, j, 0.0, 0.0  # the lower end of A ⊕ −N
+                return False, 0.0, 0.0, ia, j, ib, j  # the lower end of A ⊕ −N
             depth_a += down
         else:
             endx = pbx + ebx
@@ -109,12 +117,10 @@ def contact_with_polygons(nodes, a0, na, ia, b0, nb, ib, trial, t0, nt, hint):
             ebx, eby, ib, jb = counterclockwise_edge(nodes, b0, nb, ib, trial, t0, nt, jb)
             down = -cross(ux, uy, ebx, eby)
             if down < -PARALLEL * abs(ux * ebx + uy * eby):
-                return False, 0.0, 0.0, ia, j, ib, j, 0.0, 0.0  # the lower end of B ⊕ −N
+                return False, 0.0, 0.0, ia, j, ib, j  # the lower end of B ⊕ −N
             depth_b += down
-    x, y = crossing(
-        nodes, a0 + ia, b0 + ib, trial, t0 + ja, t0 + jb, eax, eay, ebx, eby
-    )
-    return True, x, y, ia, ja, ib, jb, eay, eby
+    x, y = crossing(nodes, a0 + ia, b0 + ib, trial, t0 + ja, t0 + jb, eax, eay, ebx, eby)
+    return True, x, y, ia, ja, ib, jb
 
 
 @inlined
@@ -123,8 +129,8 @@ def contact_from_guess(nodes, a0, na, ia, ja, b0, nb, ib, jb, trial, t0, nt):
 
     The guess is what was returned for a similar N: the vertices of A, N and B, N where the edges
     end. It starts from the edges of A and B that end there and moves each along its no-fit polygon
-    until the two lines cross within both. Returns (found, x, y, ia, ja, ib, jb); not found where the
-    guess is too far off to tell.
+    until the two lines cross within both. Returns (found, x, y, ia, ja, ib, jb); not found where
+    the guess is too far off to tell.
     """
     ma, mb = ia, ib
     ia = after(ia, na)
@@ -172,9 +178,7 @@ def contact_from_guess(nodes, a0, na, ia, ja, b0, nb, ib, jb, trial, t0, nt):
             pby += eby
             ebx, eby = -ebx, -eby
         else:
-            x, y = crossing(
-                nodes, a0 + ma, b0 + mb, trial, t0 + ka, t0 + kb, eax, eay, ebx, eby
-            )
+            x, y = crossing(nodes, a0 + ma, b0 + mb, trial, t0 + ka, t0 + kb, eax, eay, ebx, eby)
             return True, x, y, ma, ka, mb, kb
     return False, 0.0, 0.0, ia, ja, ib, jb
 

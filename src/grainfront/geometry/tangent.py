@@ -27,7 +27,9 @@ def common_tangent(nodes, a0, na, ax, ay, b0, nb, bx, by):
         uy = qy - py
         n = before(i, na)
         c = cross(ux, uy, nodes[a0 + n, 0] - px, nodes[a0 + n, 1] - py)
-        if c > 0.0 or (c == 0.0 and (nodes[a0 + n, 0] - px) * ux + (nodes[a0 + n, 1] - py) * uy > 0):
+        if c > 0.0 or (
+            c == 0.0 and (nodes[a0 + n, 0] - px) * ux + (nodes[a0 + n, 1] - py) * uy > 0
+        ):
             i = n
             continue
         n = after(i, na)
@@ -36,7 +38,9 @@ def common_tangent(nodes, a0, na, ax, ay, b0, nb, bx, by):
             continue
         n = after(j, nb)
         c = cross(ux, uy, nodes[b0 + n, 0] - qx, nodes[b0 + n, 1] - qy)
-        if c > 0.0 or (c == 0.0 and (nodes[b0 + n, 0] - qx) * ux + (nodes[b0 + n, 1] - qy) * uy < 0):
+        if c > 0.0 or (
+            c == 0.0 and (nodes[b0 + n, 0] - qx) * ux + (nodes[b0 + n, 1] - qy) * uy < 0
+        ):
             j = n
             continue
         n = before(j, nb)

@@ -18,9 +18,11 @@ WAITING_PLACES = 8
 
 # What the loop remembers between calls. PARKED of the waiting particles found no place in a whole
 # row, without the top being the reason: too wide for the domain, say. They are left for later rows.
-(
-    N_PLACED, N_DRAWN, N_WAITING, TURN, PARKED, PLACED_IN_ROW, TOO_HIGH_IN_ROW, FINISHED, N_COUNTERS,
-) = range(9)  # fmt: skip
+N_PLACED, N_DRAWN, N_WAITING, TURN, PARKED, N_FAILED = range(6)
+PLACED_IN_ROW, TOO_HIGH_IN_ROW, FINISHED, N_COUNTERS = range(6, 10)
+# Each failure moves the random offset of the next trial orientations on by the golden ratio, so
+# that a particle that is tried again is tried in other orientations.
+GOLDEN_RATIO = 0.6180339887498949
 
 
 @inlined
@@ -86,7 +88,19 @@ def take_from_waiting(waiting, counters, turn):
 
 @kernel
 def advance(
-    front, placed, grid, domain, supply, law, trials, memory, waiting, counters, n_angle, n_loc, limit
+    front,
+    placed,
+    grid,
+    domain,
+    supply,
+    law,
+    trials,
+    memory,
+    waiting,
+    counters,
+    n_angle,
+    n_loc,
+    limit,
 ):
     """Place particles until there are `limit` or the domain is full.
 
@@ -105,7 +119,8 @@ def advance(
             counters[N_DRAWN] += 1
             counters[N_WAITING] += 1
         source = waiting[turn]
-        draw_orientations(law, trials, n_angle, counters[N_PLACED], supply.uniform[source])
+        offset = (supply.uniform[source] + GOLDEN_RATIO * counters[N_FAILED]) % 1.0
+        draw_orientations(law, trials, n_angle, counters[N_PLACED], offset)
         particle = turn_and_inflate(supply, source, domain.clearance, trials, n_angle)
         if memory is None:
             status, x, y, i, k, angle = choose_exhaustively(
@@ -118,13 +133,17 @@ def advance(
         if status == RESOLVED:
             at_right_wall = k == front_length(front) - 1
             number = counters[N_PLACED]
-            store(placed, front, grid, domain, supply, law, trials, source, number, x, y, angle, i, k)
+            store(
+                placed, front, grid, domain, supply, law, trials, source, number, x, y, angle, i, k
+            )
             counters[N_PLACED] += 1
             counters[PLACED_IN_ROW] += 1
             take_from_waiting(waiting, counters, turn)
             if at_right_wall:
                 end_row(front, counters, places, supply_left)
-        elif status == TOO_HIGH:
+            continue
+        counters[N_FAILED] += 1
+        if status == TOO_HIGH:
             counters[TOO_HIGH_IN_ROW] += 1
             counters[TURN] += 1
         else:

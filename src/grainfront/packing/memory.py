@@ -12,9 +12,6 @@ from grainfront.jit import inlined
 
 # Pairs wider than this are rare; they are computed afresh.
 WIDTHS = 12
-# How far, in pairs, a place of the scout bounds the pairs beside those it covers: with 1 the choice
-# differed from exhaustive search's in 0.01–0.1 % of the steps.
-SCOUT_MARGIN = 2
 
 
 class Memory(NamedTuple):
@@ -26,11 +23,11 @@ class Memory(NamedTuple):
     step: np.ndarray  # (1,) number of the current step
     known: np.ndarray  # (n_window, WIDTHS) step in which the tangent was found
     tangent: np.ndarray  # (n_window, WIDTHS, 2) its vertices on A and B
-    guess: np.ndarray  # (n_window, WIDTHS, 4) vertices of A, N, B and N where the last trial touched
+    guess: np.ndarray  # (n_window, WIDTHS, 4) vertices of A, N, B, N where the last trial touched
     seen: np.ndarray  # (n_window, WIDTHS, n_angle) step in which the trial was looked at
+    scouted: np.ndarray  # (n_window, WIDTHS, 2) step in which a scout came by, and its pair
     height: np.ndarray  # (n_pairs,) of the scout, resolved from each pair
-    reach: np.ndarray  # (n_pairs, 2) first and last pair that this place covers
-    falls: np.ndarray  # (n_pairs, 2) whether the front falls outward from it, left and right
+    covers: np.ndarray  # (n_pairs, 2) first and last pair under its place
     bound: np.ndarray  # (n_pairs,) below which no trial from the pair gets
     order: np.ndarray  # (n_pairs,) pairs, lowest bound first
 
@@ -38,16 +35,16 @@ class Memory(NamedTuple):
 def make_memory(n_angle: int, n_loc: int) -> Memory:
     """Memory for the local front of 2 n_loc members and the pairs that reach beyond it."""
     n_window = 2 * n_loc + 2 * WIDTHS
-    n_pairs = 2 * (n_loc + SCOUT_MARGIN)
+    n_pairs = 2 * (n_loc + WIDTHS)
     return Memory(
         np.zeros(1, dtype=np.int64),
         np.zeros((n_window, WIDTHS), dtype=np.int64),
         np.empty((n_window, WIDTHS, 2), dtype=np.int64),
         np.empty((n_window, WIDTHS, 4), dtype=np.int64),
         np.zeros((n_window, WIDTHS, n_angle), dtype=np.int64),
+        np.zeros((n_window, WIDTHS, 2), dtype=np.int64),
         np.empty(n_pairs),
         np.empty((n_pairs, 2), dtype=np.int64),
-        np.empty((n_pairs, 2), dtype=np.bool_),
         np.empty(n_pairs),
         np.empty(n_pairs, dtype=np.int64),
     )
@@ -78,5 +75,5 @@ def contact_from_tangent(placed, trials, trial, memory, a, b, row, width):
     tangent = memory.tangent
     return contact_with_polygons(
         placed.nodes, a0, na, tangent[row, width, 0], b0, nb, tangent[row, width, 1],
-        trials.nodes, trial.start, trial.count, 0,
+        trials.nodes, trial.start, trial.n_nodes, 0,
     )  # fmt: skip

@@ -1,4 +1,4 @@
-"""Trial orientations that steer the placed ones towards the prescribed law (paper, Pseudocode 9)."""
+"""Trial orientations that steer towards the prescribed law (Du et al. 2023, Pseudocode 9)."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ import numpy as np
 
 from grainfront.jit import inlined
 from grainfront.packing.state import OrientationLaw
-
 
 # The quantile table of an orientation law holds this many steps a bin.
 STEPS_A_BIN = 256

@@ -64,16 +64,15 @@ def pack_hulls(
 ) -> tuple[Packing, RunTime]:
     """Pack particles by the optimised advancing front method until the domain is full.
 
-    `hulls` are standardised (centroid at the origin, S = 1, orientation 0); particle i is a copy of
-    `hulls.polygon(shape[i])` scaled by `size[i]`; `aspect_ratio`, (n_shapes,), is theirs. The particles are taken in order, so `shape` and
-    `size`, (n,), must hold enough to fill the domain. `progress` is told the particles placed and
-    the volume fraction so far. Source: Du et al. (2023), sections 3 and 4;
-    n_angle = n_loc = 1 is the plain advancing front method.
+    `hulls` are standardised (centroid at the origin, S = 1, orientation 0), `aspect_ratio`,
+    (n_shapes,), is theirs. Particle i is a copy of `hulls.polygon(shape[i])` scaled by `size[i]`.
+    Particles are taken in this order, so `shape` and `size`, (n,), must hold enough to fill the
+    domain. `progress` is told the particles placed and the volume fraction so far. With
+    n_angle = n_loc = 1 this is the plain advancing front method. Source: Du et al. (2023),
+    sections 3 and 4.
     """
     state = prepare(hulls, shape, size, orientation, domain, n_angle, n_loc, rng)
-    compile_s = compile_once(
-        "AFM" if state.memory is None else "OAFM", lambda: state.advance_to(0)
-    )
+    compile_s = compile_once("AFM" if state.memory is None else "OAFM", lambda: state.advance_to(0))
     hull_area = polygon_areas(hulls.nodes, hulls.offsets)
     area = 0.0
     kernel_s = 0.0
@@ -88,7 +87,9 @@ def pack_hulls(
             area += float(np.sum(hull_area[shape[new]] * size[new] ** 2))
             progress(int(state.counters[N_PLACED]), area / domain.area)
         placed = int(state.counters[N_PLACED])
-    return _packing(state, hull_area, aspect_ratio, shape, size, domain), RunTime(kernel_s, compile_s)
+    return _packing(state, hull_area, aspect_ratio, shape, size, domain), RunTime(
+        kernel_s, compile_s
+    )
 
 
 class State(NamedTuple):

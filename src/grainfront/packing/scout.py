@@ -13,15 +13,17 @@ import numpy as np
 
 from grainfront.jit import inlined
 from grainfront.packing.front import front_length, member_at
-from grainfront.packing.memory import SCOUT_MARGIN, WIDTHS, contact_from_tangent
+from grainfront.packing.memory import WIDTHS, contact_from_tangent
 from grainfront.packing.state import Trial
-from grainfront.packing.trials import overlaps_member
+from grainfront.packing.trials import NOTHING, overlapped_neighbour
 
 # Corners of the scout: enough to fill most of the inscribed circle, few enough to be quick.
 SCOUT_CORNERS = 12
-# Neighbours along the front that the scout is kept off; it is too small to reach farther ones often,
-# and missing one only makes the bound lower.
-SCOUT_NEIGHBOURS = 3
+# A place of the scout bounds the pairs it covers, those that the places next to it cover, as a long
+# particle may lean over a ridge to where the scout falls, and this many pairs more.
+SCOUT_MARGIN = 2
+# Pairs outside the local front from which scouts are sent too, as their places bound its ends.
+SCOUT_OUTSIDE = 6
 
 
 @inlined
@@ -32,75 +34,69 @@ def shape_scout(trials, start, angle, inradius):
         trials.nodes[start + c, 0] = inradius * math.cos(turn)
         trials.nodes[start + c, 1] = inradius * math.sin(turn)
     trials.reach[angle, :] = inradius
-    return Trial(start, SCOUT_CORNERS, angle, inradius, inradius * math.cos(math.pi / SCOUT_CORNERS))
+    return Trial(
+        start, SCOUT_CORNERS, angle, inradius, inradius * math.cos(math.pi / SCOUT_CORNERS)
+    )
 
 
 @inlined
-def send_scout(front, placed, domain, trials, scout, memory, base, i, k):
-    """Resolve the scout from one pair: (found, y, i, k, falls to the left, falls to the right).
+def send_scout(front, placed, domain, trials, scout, memory, base, begin, p):
+    """Resolve the scout from pair p and note its place: its height and the pairs it covers.
 
-    Only near neighbours along the front are looked at, and no walls: where one is met, nothing is
-    found.
+    Where a wall is met or the memory ends, the height is −∞: no bound. A pair that another scout of
+    this step came by leads to the same place.
     """
-    last = front_length(front) - 1
+    i = begin + p
+    k = i + 1
+    memory.height[p] = -np.inf
     while True:
         row = i - base
         width = k - i - 1
         a = member_at(front, i)
         b = member_at(front, k)
         if a < 0 or b < 0 or row < 0 or width >= WIDTHS:
-            return False, 0.0, i, k, False, False
-        found, x, y, _, _, _, _, slope_a, slope_b = contact_from_tangent(
+            break
+        if memory.scouted[row, width, 0] == memory.step[0]:
+            same = memory.scouted[row, width, 1]
+            memory.height[p] = memory.height[same]
+            for end in range(2):
+                memory.covers[p, end] = memory.covers[same, end]
+            return
+        memory.scouted[row, width, 0] = memory.step[0]
+        memory.scouted[row, width, 1] = p
+        found, x, y, _, _, _, _ = contact_from_tangent(
             placed, trials, scout, memory, a, b, row, width
         )
         if not found:
-            return False, 0.0, i, k, False, False
-        moved = False
-        for d in range(1, SCOUT_NEIGHBOURS + 1):
-            if i >= d and overlaps_member(
-                placed, domain, trials, scout, member_at(front, i - d), x, y
-            ):
-                i -= d
-                moved = True
-                break
-            if k + d <= last and overlaps_member(
-                placed, domain, trials, scout, member_at(front, k + d), x, y
-            ):
-                k += d
-                moved = True
-                break
-        if not moved:
-            return True, y, i, k, slope_a > 0.0, slope_b > 0.0
+            break
+        position = overlapped_neighbour(front, placed, domain, trials, scout, i, k, x, y)
+        if position == NOTHING:
+            memory.height[p] = y
+            break
+        if position < i:
+            i = position
+        else:
+            k = position
+    memory.covers[p, 0] = i - begin
+    memory.covers[p, 1] = k - 1 - begin
 
 
 @inlined
 def bound_pairs(front, placed, domain, trials, scout, memory, base, first, last):
-    """Lower bounds of what trials reach from each pair, from the scout's places nearby.
-
-    The scout is also sent from the pairs just outside the local front, whose places bound its ends.
-    """
-    begin = max(first - SCOUT_MARGIN, 0)
-    end = min(last + SCOUT_MARGIN, front_length(front) - 2)
+    """Lower bounds of what trials reach from each pair, from the scout's places nearby."""
+    begin = max(first - SCOUT_OUTSIDE, 0)
+    end = min(last + SCOUT_OUTSIDE, front_length(front) - 2)
     n_sent = end + 1 - begin
     for p in range(n_sent):
         memory.bound[p] = np.inf
-        found, y, i, k, falls_left, falls_right = send_scout(
-            front, placed, domain, trials, scout, memory, base, begin + p, begin + p + 1
-        )
-        memory.height[p] = y if found else -np.inf
-        memory.reach[p, 0] = i - begin
-        memory.reach[p, 1] = k - 1 - begin
-        memory.falls[p, 0] = falls_left
-        memory.falls[p, 1] = falls_right
+        send_scout(front, placed, domain, trials, scout, memory, base, begin, p)
     for p in range(n_sent):
+        left = memory.covers[p, 0]
+        right = memory.covers[p, 1]
         y = memory.height[p]
-        i = memory.reach[p, 0]
-        k = memory.reach[p, 1]
-        if memory.falls[p, 0]:
-            y = min(y, memory.height[i - 1] if i > 0 else -np.inf)
-        if memory.falls[p, 1]:
-            y = min(y, memory.height[k + 1] if k + 1 < n_sent else -np.inf)
-        for u in range(max(i - SCOUT_MARGIN, 0), min(k + SCOUT_MARGIN, n_sent - 1) + 1):
+        y = min(y, memory.height[left - 1] if left > 0 else -np.inf)
+        y = min(y, memory.height[right + 1] if right + 1 < n_sent else -np.inf)
+        for u in range(max(left - SCOUT_MARGIN, 0), min(right + SCOUT_MARGIN, n_sent - 1) + 1):
             memory.bound[u] = min(memory.bound[u], y)
     for p in range(last + 1 - first):
         memory.bound[p] = memory.bound[p + first - begin]

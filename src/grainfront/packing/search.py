@@ -1,8 +1,8 @@
 """The choice of exhaustive search at a fraction of its cost.
 
-Three means: an incumbent (a trial only rises while its pair widens), a memory of what the step has
-seen (trials that meet at the same pair in the same orientation end at the same place), and the
-scout's bounds: pairs are taken lowest bound first until the bound passes the incumbent.
+Three means: an incumbent (a trial hardly ever sinks far while its pair widens), a memory of what
+the step has seen (trials that meet at the same pair in the same orientation end at the same place),
+and the scout's bounds: pairs are taken lowest bound first until the bound passes the incumbent.
 """
 
 from __future__ import annotations
@@ -23,10 +23,17 @@ from grainfront.packing.trials import (
     RESOLVED,
     TOO_HIGH,
     contact_of_pair,
-    overlapped,
+    overlapped_anywhere,
+    overlapped_neighbour,
 )
 
-# Nodes from which on starting from the contact of the trial before is quicker than from the tangent.
+# A trial mostly rises while its pair widens, but may sink where it slides off a ridge; the longer
+# the particle, the farther. It is given up this many circumradii above the incumbent, times the
+# ratio of circumradius to inradius. Of four million trials of rectangles, λ = 4, one in 5,000 sank
+# farther, of hulls of 30 nodes none, and few of those are the lowest of their step.
+SINKING = 0.125
+# Nodes from which on it is quicker to start from the contact of the trial before than from the
+# tangent.
 GUESS_FROM = 8
 
 
@@ -37,16 +44,16 @@ def remembered_contact(placed, trials, trial, memory, a, b, row, width):
     guess = memory.guess
     found = False
     x = y = 0.0
-    if trial.count >= GUESS_FROM and guess[row, width, 0] >= 0:
+    if trial.n_nodes >= GUESS_FROM and guess[row, width, 0] >= 0:
         a0, b0 = placed.offsets[a], placed.offsets[b]
         na, nb = placed.offsets[a + 1] - a0, placed.offsets[b + 1] - b0
         found, x, y, ia, ja, ib, jb = contact_from_guess(
             placed.nodes, a0, na, guess[row, width, 0], guess[row, width, 1],
             b0, nb, guess[row, width, 2], guess[row, width, 3],
-            trials.nodes, trial.start, trial.count,
+            trials.nodes, trial.start, trial.n_nodes,
         )  # fmt: skip
     if not found:
-        found, x, y, ia, ja, ib, jb, _, _ = contact_from_tangent(
+        found, x, y, ia, ja, ib, jb = contact_from_tangent(
             placed, trials, trial, memory, a, b, row, width
         )
     guess[row, width, 0] = ia
@@ -58,11 +65,11 @@ def remembered_contact(placed, trials, trial, memory, a, b, row, width):
 
 @inlined
 def resolve_below(front, placed, grid, domain, trials, trial, memory, base, i, k, ceiling):
-    """As `resolve`, but gives up above `ceiling` and where another trial has been before.
+    """As `resolve`, but gives up far above `ceiling` and where another trial has been before.
 
-    A trial only rises while its pair widens, and whatever reaches the same pair with the same
-    orientation ends at the same place.
+    Whatever reaches the same pair with the same orientation ends at the same place.
     """
+    sinking = SINKING * trial.circumradius * (trial.circumradius / trial.inradius)
     while True:
         row = i - base
         width = k - i - 1
@@ -77,14 +84,16 @@ def resolve_below(front, placed, grid, domain, trials, trial, memory, base, i, k
             found, x, y = remembered_contact(placed, trials, trial, memory, a, b, row, width)
         else:
             found, x, y = contact_of_pair(placed, domain, trials, trial, a, b)
-        if not found or y > ceiling:
+        if not found or y > ceiling + sinking:
             return BLOCKED, 0.0, 0.0, i, k
         if y + trials.reach[trial.angle, 3] > domain.y_max + domain.tolerance:
             return TOO_HIGH, x, y, i, k
-        position = overlapped(front, placed, grid, domain, trials, trial, i, k, x, y)
-        if position == NOTHING:
-            return RESOLVED, x, y, i, k
-        if position == BYPASSED:
+        position = overlapped_neighbour(front, placed, domain, trials, trial, i, k, x, y)
+        if position == NOTHING and y <= ceiling:
+            position = overlapped_anywhere(front, placed, grid, domain, trials, trial, i, k, x, y)
+            if position == NOTHING:
+                return RESOLVED, x, y, i, k
+        if position in (NOTHING, BYPASSED):
             return BLOCKED, 0.0, 0.0, i, k
         if position < i:
             i = position

@@ -95,7 +95,7 @@ class Trial(NamedTuple):
     """One trial orientation of the particle to be placed."""
 
     start: int
-    count: int
+    n_nodes: int
     angle: int
     circumradius: float
     inradius: float

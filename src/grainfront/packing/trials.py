@@ -1,4 +1,4 @@
-"""One trial: a particle put in contact with a pair of the front and moved until nothing overlaps."""
+"""One trial: a particle in contact with a pair of the front, moved until nothing overlaps."""
 
 from __future__ import annotations
 
@@ -34,11 +34,9 @@ def contact_of_pair(placed, domain, trials, trial, a, b):
         a0, b0 = placed.offsets[a], placed.offsets[b]
         na, nb = placed.offsets[a + 1] - a0, placed.offsets[b + 1] - b0
         disc = placed.disc
-        i, j = common_tangent(
-            nodes, a0, na, disc[a, 0], disc[a, 1], b0, nb, disc[b, 0], disc[b, 1]
-        )
-        found, x, y, _, _, _, _, _, _ = contact_with_polygons(
-            nodes, a0, na, i, b0, nb, j, trials.nodes, trial.start, trial.count, 0
+        i, j = common_tangent(nodes, a0, na, disc[a, 0], disc[a, 1], b0, nb, disc[b, 0], disc[b, 1])
+        found, x, y, _, _, _, _ = contact_with_polygons(
+            nodes, a0, na, i, b0, nb, j, trials.nodes, trial.start, trial.n_nodes, 0
         )
         return found, x, y
     if a >= 0 or b >= 0:
@@ -47,7 +45,7 @@ def contact_of_pair(placed, domain, trials, trial, a, b):
         start = placed.offsets[polygon]
         count = placed.offsets[polygon + 1] - start
         return contact_with_wall(
-            nodes, start, count, a >= 0, nx, ny, level, trials.nodes, trial.start, trial.count
+            nodes, start, count, a >= 0, nx, ny, level, trials.nodes, trial.start, trial.n_nodes
         )
     y = domain.y_min + trials.reach[trial.angle, 1]
     if a == LEFT_WALL and b == BOTTOM_WALL:
@@ -72,7 +70,7 @@ def overlaps_particle(placed, domain, trials, trial, q, x, y):
     start = placed.offsets[q]
     return overlapping(
         placed.nodes, start, placed.offsets[q + 1] - start, qx, qy,
-        trials.nodes, trial.start, trial.count, x, y, domain.tolerance,
+        trials.nodes, trial.start, trial.n_nodes, x, y, domain.tolerance,
     )  # fmt: skip
 
 
@@ -152,19 +150,26 @@ def overlapped_anywhere(front, placed, grid, domain, trials, trial, i, k, x, y):
 
 
 @inlined
-def overlapped(front, placed, grid, domain, trials, trial, i, k, x, y):
-    """Position of the member that the trial is moved on to; see `overlapped_anywhere`."""
+def overlapped_neighbour(front, placed, domain, trials, trial, i, k, x, y):
+    """Position of the nearest neighbour along the front that the trial overlaps, or NOTHING."""
     last = front_length(front) - 1
     for d in range(1, CHAIN_NEIGHBOURS + 1):
-        if i >= d and overlaps_member(
-            placed, domain, trials, trial, member_at(front, i - d), x, y
-        ):
+        if i >= d and overlaps_member(placed, domain, trials, trial, member_at(front, i - d), x, y):
             return i - d
         if k + d <= last and overlaps_member(
             placed, domain, trials, trial, member_at(front, k + d), x, y
         ):
             return k + d
-    return overlapped_anywhere(front, placed, grid, domain, trials, trial, i, k, x, y)
+    return NOTHING
+
+
+@inlined
+def overlapped(front, placed, grid, domain, trials, trial, i, k, x, y):
+    """Position of the member that the trial is moved on to; see `overlapped_anywhere`."""
+    position = overlapped_neighbour(front, placed, domain, trials, trial, i, k, x, y)
+    if position == NOTHING:
+        position = overlapped_anywhere(front, placed, grid, domain, trials, trial, i, k, x, y)
+    return position
 
 
 @inlined

@@ -1,0 +1,71 @@
+"""The optimised search chooses what exhaustive search chooses, step by step.
+
+Both packings start from the same state and are compared bit for bit, so that each step is chosen
+from the same front until the first difference, of which there must be none.
+"""
+
+import os
+
+import numpy as np
+import pytest
+
+from grainfront.geometry.moments import polygon_areas
+from grainfront.packing.advance import N_PLACED
+from grainfront.packing.orientations import orientation_law
+from grainfront.packing.pack import prepare
+from grainfront.particles import Rectangle
+from grainfront.polygons import Polygons
+
+interpreted = os.environ.get("NUMBA_DISABLE_JIT") == "1"
+
+
+def jittered(count, elongation, rng):
+    angle = (np.arange(count) + rng.uniform(-0.3, 0.3, count)) * 2.0 * np.pi / count
+    nodes = np.column_stack([elongation * np.cos(angle), np.sin(angle)])
+    x, y = nodes.T
+    cross = x * np.roll(y, -1) - np.roll(x, -1) * y
+    centroid = (cross[:, None] * (nodes + np.roll(nodes, -1, axis=0))).sum(0) / cross.sum() / 3
+    return (nodes - centroid) / 1.9
+
+
+def rectangle(aspect_ratio):
+    return np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * [aspect_ratio / 2, 0.5]
+
+
+def many(count, elongation, kinds=100):
+    rng = np.random.default_rng(count)
+    return [jittered(count, elongation, rng) for _ in range(kinds)]
+
+
+FAMILIES = {
+    "rectangles of 1.5": ([rectangle(1.5)], 110.0),
+    "rectangles of 4": ([rectangle(4.0)], 150.0),
+    "triangles": (many(3, 1.0), 55.0),
+    "irregular hulls": (many(30, 1.4), 80.0),
+}
+
+
+def prepare_family(family, side, seed, n_angle, n_loc):
+    hulls = Polygons.of(FAMILIES[family][0])
+    rng = np.random.default_rng(seed)
+    mean_area = polygon_areas(hulls.nodes, hulls.offsets).mean() * 1.75
+    n = int(1.2 * side**2 / mean_area) + 50
+    law = orientation_law(np.full(24, 1 / 24), np.linspace(0.0, 180.0, 6145))
+    return prepare(
+        hulls, rng.integers(0, hulls.count, n), rng.uniform(0.5, 2.0, n), law,
+        Rectangle(0.0, 0.0, side, side), n_angle, n_loc, rng,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+@pytest.mark.parametrize("seed", [1, 2] if not interpreted else [1])
+def test_the_choice_is_that_of_exhaustive_search(family, seed):
+    side, n_angle, n_loc = (FAMILIES[family][1], 24, 20) if not interpreted else (6.0, 4, 3)
+    states = [prepare_family(family, side, seed, n_angle, n_loc) for _ in range(2)]
+    optimised, exhaustive = states[0], states[1]._replace(memory=None)
+    for state in (optimised, exhaustive):
+        state.advance_to(2**62)
+    placed = [int(state.counters[N_PLACED]) for state in (optimised, exhaustive)]
+    assert placed[0] == placed[1] > (1500 if not interpreted else 5)
+    for one, other in zip(optimised.placed, exhaustive.placed, strict=True):
+        np.testing.assert_array_equal(one[: placed[0]], other[: placed[0]])
