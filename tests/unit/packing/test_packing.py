@@ -1,6 +1,7 @@
 """Packings of random scenes: what must hold of every one of them."""
 
 import math
+import os
 
 import numpy as np
 import pytest
@@ -9,13 +10,16 @@ from hypothesis import strategies as st
 
 from grainfront.certificate import certify
 from grainfront.geometry.moments import place_polygon, polygon_areas
+from grainfront.jit import kernel
 from grainfront.packing.advance import N_PLACED, WAITING_PLACES
 from grainfront.packing.front import front_length, member_at, position_of
 from grainfront.packing.orientations import orientation_law
 from grainfront.packing.pack import pack_hulls, prepare
 from grainfront.particles import Rectangle
 from grainfront.polygons import Polygons
+from grainfront.statistics import find_contacts
 
+COMPILED = os.environ.get("NUMBA_DISABLE_JIT") != "1"
 UNIFORM = (np.full(24, 1 / 24), np.linspace(0.0, 180.0, 6145))
 
 
@@ -74,7 +78,7 @@ def square_domain(side, origin=0.0):
 efforts = st.sampled_from([(1, 1), (1, 5), (6, 1), (6, 5)])
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40 if COMPILED else 4, deadline=None)
 @given(
     st.sampled_from(sorted(FAMILIES)),
     st.floats(0.05, 1.0),
@@ -93,6 +97,7 @@ def test_no_packing_has_an_exact_overlap(family, smallest, width, height, origin
         assert (certificate.overlaps, certificate.across_wall) == (0, 0)
 
 
+@pytest.mark.compiled
 @pytest.mark.parametrize("exponent", [-30, 40])
 @pytest.mark.parametrize("effort", [(1, 1), (6, 5)])
 def test_a_scene_scaled_by_a_power_of_two_packs_the_same_bits(effort, exponent):
@@ -105,6 +110,7 @@ def test_a_scene_scaled_by_a_power_of_two_packs_the_same_bits(effort, exponent):
     np.testing.assert_array_equal(scaled.orientation, packing.orientation)
 
 
+@pytest.mark.compiled
 def test_the_same_seed_packs_the_same_bits_and_another_seed_does_not():
     one, same, other = (
         pack_family("pentagons", square_domain(12.0), (0.5, 1.0), 6, 5, seed).polygons.nodes
@@ -114,9 +120,8 @@ def test_the_same_seed_packs_the_same_bits_and_another_seed_does_not():
     assert one.shape != other.shape or not np.array_equal(one, other)
 
 
+@pytest.mark.compiled
 def test_every_particle_but_the_lowest_touches_two_others_or_walls():
-    from grainfront.statistics import find_contacts
-
     packing = pack_family("hulls of 30 nodes", square_domain(20.0), (0.5, 1.0), 6, 5, 2)
     contacts = find_contacts(packing)
     touching = np.bincount(contacts.pairs.ravel(), minlength=packing.x.size)
@@ -131,24 +136,18 @@ def test_particles_are_the_hulls_scaled_turned_and_moved():
     for p in range(packing.x.size):
         hull = hulls.polygon(packing.shape[p])
         expected = np.empty_like(hull)
-        _place(hull, packing.size[p], packing.orientation[p], packing.x[p], packing.y[p], expected)
+        place_kernel(
+            hull, packing.size[p], packing.orientation[p], packing.x[p], packing.y[p], expected
+        )
         np.testing.assert_array_equal(packing.polygons.polygon(p), expected)
     assert packing.orientation.min() >= 0.0 and packing.orientation.max() < 180.0
     areas = polygon_areas(packing.polygons.nodes, packing.polygons.offsets)
     np.testing.assert_allclose(packing.area, areas, rtol=1e-12)
 
 
-def _place(hull, size, orientation, x, y, target):
-    from grainfront.jit import kernel
-
-    global _place_kernel
-    if "_place_kernel" not in globals():
-
-        @kernel
-        def _place_kernel(nodes, count, size, orientation, x, y, target):
-            place_polygon(nodes, 0, count, size, orientation, x, y, target, 0)
-
-    _place_kernel(hull, len(hull), size, orientation, x, y, target)
+@kernel
+def place_kernel(nodes, size, orientation, x, y, target):
+    place_polygon(nodes, 0, nodes.shape[0], size, orientation, x, y, target, 0)
 
 
 def test_equal_squares_at_zero_degrees_become_a_lattice():
@@ -157,6 +156,7 @@ def test_equal_squares_at_zero_degrees_become_a_lattice():
     assert packing.x.size == 400
 
 
+@pytest.mark.compiled
 @pytest.mark.parametrize(("n_angle", "n_loc"), [(1, 1), (24, 4)])
 def test_orientations_follow_a_law_with_a_gap(n_angle, n_loc):
     angles = np.linspace(0.0, 10.0, 1537)
@@ -172,6 +172,7 @@ def test_orientations_follow_a_law_with_a_gap(n_angle, n_loc):
     assert abs(np.mean(low) - 0.5) < 2.0 / packing.x.size**0.5 / 5.0
 
 
+@pytest.mark.compiled
 @pytest.mark.parametrize("n_angle", [1, 24])
 def test_orientations_keep_far_closer_to_the_law_than_chance(n_angle):
     packing = pack_family("rectangles of 1.5", square_domain(40.0), (0.5, 1.5), n_angle, 3, 0)
@@ -223,19 +224,13 @@ def test_the_front_keeps_its_members_and_their_slots_in_step():
         on_front = {m for m in members if m >= 0}
         placed = range(state.counters[N_PLACED])
         assert {p for p in placed if front.slot[p] >= 0} == on_front
-        assert _positions(front, members) == list(range(len(members)))
+        positions = np.empty(len(members), dtype=np.int64)
+        positions_kernel(front, positions)
+        assert positions.tolist() == list(range(len(members)))
 
 
-def _positions(front, members):
-    """Positions of the members by the kernel's own functions, walls by their places."""
-    from grainfront.jit import kernel
-
-    @kernel
-    def positions(front, out):
-        for p in range(front_length(front)):
-            member = member_at(front, p)
-            out[p] = position_of(front, member) if member >= 0 else p
-
-    out = np.empty(len(members), dtype=np.int64)
-    positions(front, out)
-    return out.tolist()
+@kernel
+def positions_kernel(front, out):
+    for p in range(front_length(front)):
+        member = member_at(front, p)
+        out[p] = position_of(front, member) if member >= 0 else p
