@@ -6,7 +6,7 @@
 # make requirements  pin the newest versions again (needs uv)
 
 SCENE ?= river_gravel
-PYTHON ?= python3.11
+PYTHON ?= $(or $(shell command -v python3.11),python3)
 BIN := .venv/bin
 # What runs below finds this environment's tools first.
 RUN := PATH="$(CURDIR)/$(BIN):$$PATH"

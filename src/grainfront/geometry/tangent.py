@@ -7,6 +7,18 @@ from grainfront.jit import inlined
 
 
 @inlined
+def beyond_tangent(nodes, start, i, n, ux, uy, inward):
+    """Whether vertex n lies left of the line along u through vertex i, or on it and nearer.
+
+    `inward` is 1 where nearer to the other polygon is forward along u, and −1 where it is backward.
+    """
+    ex = nodes[start + n, 0] - nodes[start + i, 0]
+    ey = nodes[start + n, 1] - nodes[start + i, 1]
+    side = cross(ux, uy, ex, ey)
+    return side > 0.0 or (side == 0.0 and inward * (ux * ex + uy * ey) > 0.0)
+
+
+@inlined
 def common_tangent(nodes, a0, na, ax, ay, b0, nb, bx, by):
     """Vertices of A and B on their common tangent with both polygons to the right of A → B.
 
@@ -14,38 +26,19 @@ def common_tangent(nodes, a0, na, ax, ay, b0, nb, bx, by):
     B ⊕ −N for every N, since both supports gain the same term. Where an edge lies on the tangent,
     the vertex nearer to the other polygon is taken.
     """
-    nx = -(by - ay)
-    ny = bx - ax
-    i = support(nodes, a0, na, nx, ny)
-    j = support(nodes, b0, nb, nx, ny)
+    i = support(nodes, a0, na, -(by - ay), bx - ax)
+    j = support(nodes, b0, nb, -(by - ay), bx - ax)
     for _ in range(na + nb):
-        px = nodes[a0 + i, 0]
-        py = nodes[a0 + i, 1]
-        qx = nodes[b0 + j, 0]
-        qy = nodes[b0 + j, 1]
-        ux = qx - px
-        uy = qy - py
-        n = before(i, na)
-        c = cross(ux, uy, nodes[a0 + n, 0] - px, nodes[a0 + n, 1] - py)
-        if c > 0.0 or (
-            c == 0.0 and (nodes[a0 + n, 0] - px) * ux + (nodes[a0 + n, 1] - py) * uy > 0
-        ):
-            i = n
-            continue
-        n = after(i, na)
-        if cross(ux, uy, nodes[a0 + n, 0] - px, nodes[a0 + n, 1] - py) > 0.0:
-            i = n
-            continue
-        n = after(j, nb)
-        c = cross(ux, uy, nodes[b0 + n, 0] - qx, nodes[b0 + n, 1] - qy)
-        if c > 0.0 or (
-            c == 0.0 and (nodes[b0 + n, 0] - qx) * ux + (nodes[b0 + n, 1] - qy) * uy < 0
-        ):
-            j = n
-            continue
-        n = before(j, nb)
-        if cross(ux, uy, nodes[b0 + n, 0] - qx, nodes[b0 + n, 1] - qy) > 0.0:
-            j = n
-            continue
-        break
+        ux = nodes[b0 + j, 0] - nodes[a0 + i, 0]
+        uy = nodes[b0 + j, 1] - nodes[a0 + i, 1]
+        if beyond_tangent(nodes, a0, i, before(i, na), ux, uy, 1):
+            i = before(i, na)
+        elif beyond_tangent(nodes, a0, i, after(i, na), ux, uy, 1):
+            i = after(i, na)
+        elif beyond_tangent(nodes, b0, j, after(j, nb), ux, uy, -1):
+            j = after(j, nb)
+        elif beyond_tangent(nodes, b0, j, before(j, nb), ux, uy, -1):
+            j = before(j, nb)
+        else:
+            break
     return i, j

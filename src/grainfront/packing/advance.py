@@ -78,6 +78,16 @@ def pass_on(front, counters, n_waiting_places, supply_left):
 
 
 @inlined
+def next_particle(waiting, counters, turn):
+    """The particle whose turn it is among those that wait, or else a new one, which joins them."""
+    if turn == counters[N_WAITING]:
+        waiting[turn] = counters[N_DRAWN]
+        counters[N_DRAWN] += 1
+        counters[N_WAITING] += 1
+    return waiting[turn]
+
+
+@inlined
 def take_from_waiting(waiting, counters, turn):
     """Remove a particle that has been placed from those that wait."""
     counters[N_WAITING] -= 1
@@ -111,14 +121,10 @@ def advance(
     while counters[N_PLACED] < limit and not counters[FINISHED]:
         turn = counters[TURN]
         supply_left = counters[N_DRAWN] < supply.size.size
-        if turn == counters[N_WAITING]:
-            if turn == places or not supply_left:
-                pass_on(front, counters, places, supply_left)
-                continue
-            waiting[turn] = counters[N_DRAWN]
-            counters[N_DRAWN] += 1
-            counters[N_WAITING] += 1
-        source = waiting[turn]
+        if turn == counters[N_WAITING] and (turn == places or not supply_left):
+            pass_on(front, counters, places, supply_left)
+            continue
+        source = next_particle(waiting, counters, turn)
         offset = (supply.uniform[source] + GOLDEN_RATIO * counters[N_FAILED]) % 1.0
         draw_orientations(law, trials, n_angle, counters[N_PLACED], offset)
         particle = turn_and_inflate(supply, source, domain.clearance, trials, n_angle)
