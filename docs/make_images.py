@@ -23,14 +23,16 @@ def main() -> None:
     database = api.build_shapes(scene)
     packing, _ = api.pack(scene, database, scene.seeds[0])
     outlines = api.replace(packing, database)
-    fraction, _ = api.volume_fractions(outlines)
     found = find_outlines(scene.shapes)[0]
     draw = {
         "photograph": figures.photograph(
-            found.image, found.outlines, title="gravel, the photograph inside scikit-image"
+            found.image, found.outlines, title="gravel, from scikit-image"
         ),
         "packing": figures.packing(
-            packing, outlines, length_unit=scene.length_unit, volume_fraction=fraction
+            packing,
+            outlines,
+            length_unit=scene.length_unit,
+            volume_fractions=[api.volume_fractions(each)[0] for each in (packing, outlines)],
         ),
     }
     for name, figure in draw.items():

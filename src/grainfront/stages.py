@@ -190,13 +190,13 @@ def figures(
     replaced = netcdf.read_packing(outlines) if outlines else None
     touching = netcdf.read_contacts(contacts)
     measured = read_statistics(statistics)
-    shown = replaced or packed
+    drawn_packings = [packed] if replaced is None else [packed, replaced]
     drawn = {
         packing_picture: figures.packing(
             packed,
             replaced,
             length_unit=length_unit,
-            volume_fraction=api.volume_fractions(shown)[0],
+            volume_fractions=[api.volume_fractions(each)[0] for each in drawn_packings],
         ),
         laws_picture: figures.laws(measured.distributions[0], length_unit=length_unit),
         contacts_picture: figures.contacts(

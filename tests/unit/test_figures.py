@@ -30,7 +30,7 @@ CONSTANT = Distribution(np.array([1.5, 1.5]), np.ones(1), np.ones(1), 0.0, 0.0)
 def packing_figure(columns=12, rows=9, **changes):
     packing = synthetic.packing(columns, rows, np.random.default_rng(0), spikes=0.3)
     packing = replace(packing, **changes)
-    return figures.packing(packing, None, length_unit="mm", volume_fraction=0.5)
+    return figures.packing(packing, None, length_unit="mm", volume_fractions=[0.5])
 
 
 def contacts_figure():
@@ -112,12 +112,14 @@ def test_every_particle_is_drawn_in_the_colour_of_its_size():
 def test_the_zoom_shows_the_hulls_behind_the_outlines():
     hulls = synthetic.packing(12, 9, np.random.default_rng(0))
     outlines = synthetic.packing(12, 9, np.random.default_rng(0), spikes=0.3)
-    figure = figures.packing(hulls, outlines, length_unit="mm", volume_fraction=0.5)
+    figure = figures.packing(hulls, outlines, length_unit="mm", volume_fractions=[0.6, 0.5])
     behind, front = figure.axes[1].collections
     assert isinstance(behind, PolyCollection)
     assert behind.get_array() is None
     assert front.get_array() is not None
     assert len(behind.get_paths()) == len(front.get_paths())
+    assert "0.5000" in figure.axes[0].get_title(loc="left")
+    assert "0.6000" in figure.axes[1].get_title(loc="left")
 
 
 @pytest.mark.parametrize("columns, rows", [(3, 30), (30, 3), (1, 1)])
@@ -141,7 +143,7 @@ def test_laws_show_shares_probabilities_and_errors():
     steps = next(p for p in top.patches if hasattr(p, "get_data"))
     assert np.array_equal(steps.get_data().values, 100 * UNIFORM)
     assert np.allclose([b.get_height() for b in bottom.patches], 100 * (SHARES - UNIFORM))
-    assert "1.23 %, noise level 0.71 %" in bottom.get_xlabel()
+    assert "1.23 %, noise level 0.710 %" in bottom.get_xlabel()
     assert bottom.get_xlabel().startswith("aspect ratio\n")
     assert bottom_of_constant.get_xlabel().startswith("size (mm)\n")
     assert [b.get_height() for b in constant.patches] == [100]
@@ -163,6 +165,17 @@ def test_the_rose_is_isotropic_at_radius_one():
     assert np.allclose([b.get_height() for b in directions.patches], 1)
     assert np.allclose([b.get_height() for b in placed.patches], np.tile(24 * SHARES, 2))
     assert np.allclose(placed.lines[0].get_ydata(), 1)
+    assert np.allclose(directions.lines[0].get_ydata(), 1)
+
+
+def test_the_photograph_shows_every_outline_and_a_closer_look_at_its_middle():
+    whole, zoom = photograph_figure().axes
+    for axes in (whole, zoom):
+        (drawn,) = axes.collections
+        assert np.allclose(drawn.get_paths()[0].vertices[:-1], [[10, 10], [30, 12], [20, 40.5]])
+    assert np.isclose(np.ptp(zoom.get_xlim()), 80 / 3)
+    assert np.isclose(np.mean(zoom.get_ylim()), 29.5)
+    assert "1 outlines" in whole.get_title(loc="left")
 
 
 def test_a_missing_folder_is_named(tmp_path):

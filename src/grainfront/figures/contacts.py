@@ -45,9 +45,9 @@ def contacts(
     figure = Figure(figsize=(WIDTH, 84 * MM))
     left, right = figure.subplots(1, 2, width_ratios=(1, 1.05))
     _draw_shares(left, contact_shares, coordination_number)
-    panel_letter(left, "a", f"{len(contacts.pairs):,} contacts between particles")
+    panel_letter(left, "a", f"{len(contacts.pairs):,} contacts between hulls")
     _draw_network(right, packing, contacts, length_unit)
-    panel_letter(right, "b", "network, from centre to contact to centre")
+    panel_letter(right, "b", "closer: lines join centres through contacts")
     return figure
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import MultipleLocator
 
 from grainfront.figures.style import INK, MM, PLACED, PRESCRIBED, WIDTH, panel_letter, styled
 
@@ -33,6 +34,8 @@ def laws(distributions: Mapping[str, Distribution], *, length_unit: str) -> Figu
         panel_letter(top, letter, name)
         constant = placed.edges[0] == placed.edges[-1]
         (_draw_constant if constant else _draw_bins)(top, bottom, placed)
+        if law == "orientation" and not constant:
+            bottom.xaxis.set_major_locator(MultipleLocator(45))
         bottom.set_xlabel(
             f"{name}{f' ({units[law]})' if law in units else ''}\n"
             f"$E_2$ = {_percent(placed.l2_error)}, noise level {_percent(placed.noise_level)}",
@@ -84,4 +87,4 @@ def _draw_constant(top: Axes, bottom: Axes, law: Distribution) -> None:
 
 
 def _percent(share: float) -> str:
-    return f"{100 * share:.3g} %"
+    return f"{100 * share:#.3g} %"

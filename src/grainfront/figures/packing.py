@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
@@ -10,8 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle as RectanglePatch
 
 from grainfront.figures.style import (
-    GRAIN,
-    GRAIN_EDGE,
+    HULL,
     INK,
     MM,
     SIZE_MAP,
@@ -23,18 +24,18 @@ from grainfront.figures.style import (
 )
 from grainfront.particles import Packing, Rectangle
 
-GRAINS_ACROSS_ZOOM = 12
+GRAINS_ACROSS_ZOOM = 8
 """Edge of the zoom in mean circumscribed diameters: few enough to see every outline."""
 
 
 @styled
 def packing(
-    hulls: Packing, outlines: Packing | None, *, length_unit: str, volume_fraction: float
+    hulls: Packing, outlines: Packing | None, *, length_unit: str, volume_fractions: Sequence[float]
 ) -> Figure:
     """The whole packing and a zoom of its middle, particles coloured by size.
 
     Where `outlines` replaced the hulls they are what is coloured, and the zoom shows the hulls
-    round them; `volume_fraction` is that of what is coloured.
+    round them. `volume_fractions` are those of the hulls and, where there are any, the outlines.
     """
     shown = outlines or hulls
     figure = Figure(figsize=(WIDTH, _height(shown.domain)))
@@ -45,7 +46,7 @@ def packing(
     artist = _draw(whole, shown, colours, edge=0.0)
     map_axes(whole, shown.domain, length_unit)
     whole.add_patch(_outline_of(window, linewidth=0.9))
-    panel_letter(whole, "a", f"{shown.x.size:,} particles, $\\phi$ = {volume_fraction:.4f}")
+    panel_letter(whole, "a", f"{shown.x.size:,} particles, $\\phi$ = {volume_fractions[-1]:.4f}")
 
     inside = inside_window(shown, window)
     if outlines is not None:
@@ -53,11 +54,12 @@ def packing(
     _draw(zoom, shown, colours, edge=0.3, chosen=inside)
     map_axes(zoom, window, length_unit)
     zoom.spines[:].set_color(WINDOW)
-    panel_letter(zoom, "b", "outlines in their hulls" if outlines is not None else "hulls")
+    hulls_behind = f"outlines in their hulls (hulls: $\\phi$ = {volume_fractions[0]:.4f})"
+    panel_letter(zoom, "b", "closer" if outlines is None else hulls_behind)
 
     bar = figure.colorbar(artist, ax=[whole, zoom], location="bottom", aspect=60, shrink=0.6,
                           pad=0.02, extend="both" if np.ptp(shown.size) else "neither")  # fmt: skip
-    bar.set_label(f"size ({length_unit})")
+    bar.set_label(f"size, the minimum Feret diameter ({length_unit})")
     bar.outline.set_linewidth(0.4)
     return figure
 
@@ -122,7 +124,7 @@ def _draw(
 def _draw_hulls(axes: Axes, hulls: Packing, chosen: np.ndarray) -> None:
     polygons = [hulls.polygons.polygon(i) for i in chosen.tolist()]
     axes.add_collection(
-        PolyCollection(polygons, facecolors=GRAIN, edgecolors=GRAIN_EDGE, linewidths=0.35),
+        PolyCollection(polygons, facecolors=HULL, edgecolors=INK, linewidths=0.3),
         autolim=False,
     )
 

@@ -11,7 +11,16 @@ from matplotlib.patheffects import withStroke
 from matplotlib.projections.polar import PolarAxes
 from matplotlib.ticker import MaxNLocator
 
-from grainfront.figures.style import ACCENT, MM, PLACED, PRESCRIBED, WIDTH, panel_letter, styled
+from grainfront.figures.style import (
+    ACCENT,
+    INK,
+    MM,
+    PLACED,
+    PRESCRIBED,
+    WIDTH,
+    panel_letter,
+    styled,
+)
 
 if TYPE_CHECKING:
     from grainfront.statistics import OrientationRose
@@ -35,9 +44,10 @@ def rose(orientation: OrientationRose, contact_normals: OrientationRose | None) 
         _petals(polar, edges, _density(one.shares, edges), colour)
         if one.probabilities is not None:
             _steps(polar, edges, _density(one.probabilities, edges))
+        _ring_of_uniform_law(polar)
         _dress(polar)
     handles, labels = axes[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=2)
+    figure.legend(handles, labels, loc="outside lower center", ncols=3)
     return figure
 
 
@@ -50,7 +60,7 @@ def _petals(axes: PolarAxes, edges: np.ndarray, radius: np.ndarray, colour: str)
     for turn, label in ((0.0, "placed"), (np.pi, None)):
         axes.bar(
             edges[:-1] + turn, radius, np.diff(edges), align="edge", color=colour,
-            edgecolor="white", linewidth=0.3, label=label,
+            edgecolor="white", linewidth=0.2, label=label,
         )  # fmt: skip
 
 
@@ -65,12 +75,19 @@ def _steps(axes: PolarAxes, edges: np.ndarray, radius: np.ndarray) -> None:
     )  # fmt: skip
 
 
+def _ring_of_uniform_law(axes: PolarAxes) -> None:
+    """The circle of radius 1, on which every petal would end if all directions were alike."""
+    angle = np.linspace(0, 2 * np.pi, 361)
+    axes.plot(angle, np.ones_like(angle), color=INK, linewidth=0.7, linestyle=(0, (4, 3)),
+              label="uniform law, radius 1")  # fmt: skip
+
+
 def _dress(axes: PolarAxes) -> None:
     """Few rings, legible over the petals."""
     axes.spines["polar"].set_visible(False)
     axes.set_axisbelow("line")
     axes.set_thetagrids(range(0, 360, 30))
-    axes.yaxis.set_major_locator(MaxNLocator(3, prune="lower"))
+    axes.yaxis.set_major_locator(MaxNLocator(3, steps=[1, 5, 10], prune="lower"))
     axes.set_rlabel_position(15)
     for label in axes.get_yticklabels():
         label.set_path_effects([withStroke(linewidth=2, foreground="white")])

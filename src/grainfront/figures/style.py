@@ -22,6 +22,7 @@ WIDTH = 180 * MM  # two columns of a journal page
 INK = "#222222"
 GRAIN = "#e6e2d8"
 GRAIN_EDGE = "#a09a8a"
+HULL = "#f6b8a0"  # seen between grains of any colour of the map of sizes, and on white
 WINDOW = "#d00000"
 # Okabe & Ito (2008): told apart by every kind of colour vision.
 PLACED = "#56b4e9"
