@@ -1,6 +1,9 @@
 # Pictures, and with them the report; planned only for scenes whose outputs name figures.
 
 
+report: "../report/workflow.rst"
+
+
 def pictures_of(name):
     """A picture of a scene, with its caption in the report."""
     return report(
