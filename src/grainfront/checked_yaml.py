@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import difflib
 import re
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -12,6 +11,10 @@ from typing import Any
 import yaml
 
 from grainfront.errors import InputError
+
+# Numbers but 0 lie between these, either sign: the geometry takes fourth powers of lengths and the
+# laws inverse squares, which neither overflow (beyond 1e308) nor vanish (below 1e-308) then.
+SMALLEST_NUMBER, LARGEST_NUMBER = 1e-50, 1e50
 
 # What the rules and types of JSON Schema allow, in words.
 LIMITS = {
@@ -31,7 +34,16 @@ TYPES = {
 
 
 class _Loader(yaml.SafeLoader):
-    """Safe loader that refuses repeated keys and reads 1e3 as the number that it is in YAML 1.2."""
+    """Safe loader that refuses repeated keys and aliases, and reads 1e3 as a number (YAML 1.2)."""
+
+    def compose_node(self, parent: yaml.Node | None, index: Any) -> yaml.Node | None:
+        # an alias may name its own parent, or multiply a short file to gigabytes
+        if self.check_event(yaml.AliasEvent):
+            alias = self.peek_event()
+            raise yaml.composer.ComposerError(
+                None, None, f"aliases such as *{alias.anchor} are not allowed", alias.start_mark
+            )
+        return super().compose_node(parent, index)
 
     def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict:
         seen: set[str] = set()
@@ -69,7 +81,8 @@ def parse_checked(text: str, schema: dict[str, Any], where: str) -> dict[str, An
     """Parse YAML and check it against `schema`, adding the schema's defaults.
 
     `where` names the file in errors. Raises InputError, one sentence, where the text is no YAML, is
-    empty, repeats a key, holds a number that is not finite, or breaks the schema.
+    empty, repeats a key, holds a number that is not finite or of an absurd magnitude, or breaks the
+    schema.
     """
     try:
         data = yaml.load(text, Loader=_Loader)
@@ -82,8 +95,11 @@ def parse_checked(text: str, schema: dict[str, Any], where: str) -> dict[str, An
     if data is None:
         raise InputError(f"{where}: is empty, but must give the keys {_keys(schema['required'])}.")
     for keys, number in _numbers(data):
-        if not abs(number) <= sys.float_info.max:
-            raise InputError(f"{where}: {_dotted(keys)} is {number}, but must be a finite number.")
+        if number and not SMALLEST_NUMBER <= abs(number) <= LARGEST_NUMBER:
+            raise InputError(
+                f"{where}: {_dotted(keys)} is {_shown(number)}, but must be a finite number, "
+                f"0 or of a magnitude between {SMALLEST_NUMBER:g} and {LARGEST_NUMBER:g}."
+            )
     _check(data, schema, where)
     _complete(data, schema, schema)
     return data
@@ -128,7 +144,7 @@ def _sentence(error: Any) -> str:
         return f"{_dotted(keys)} has {given}, but must have exactly one of {allowed}"
     value = error.validator_value
     if rule in LIMITS:
-        allowed = f"{LIMITS[rule]} {_keys(value) if rule == 'enum' else format(value, 'g')}"
+        allowed = f"{LIMITS[rule]} {_keys(value) if rule == 'enum' else value}"
     elif rule == "type":
         allowed = TYPES[value]
     elif rule == "minItems":

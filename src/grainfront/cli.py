@@ -11,7 +11,8 @@ from pathlib import Path
 
 from grainfront import api
 from grainfront.errors import InputError
-from grainfront.scene import IMAGES
+from grainfront.files.atomic import require_writable
+from grainfront.scene import IMAGES, scene_schema
 from grainfront.shapes import sources
 from grainfront.shapes.sources import ShapeSource
 
@@ -26,7 +27,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = _parser().parse_args(arguments)
     try:
         options.run(options)
-    except (InputError, OSError) as error:
+    except (InputError, OSError, MemoryError) as error:
         print(api.sentence(error), file=sys.stderr)
         return FAULTY_INPUT
     return 0
@@ -79,16 +80,22 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _seed(text: str) -> int:
-    seed = int(text)
-    if seed < 0:
-        raise argparse.ArgumentTypeError(f"{seed} is negative; allowed are whole numbers from 0 on")
+    try:
+        seed = int(text)
+    except ValueError:
+        seed = -1
+    largest = scene_schema()["properties"]["seed"]["maximum"]
+    if not 0 <= seed <= largest:
+        raise argparse.ArgumentTypeError(
+            f"is {text:.30}, but must be a whole number from 0 to {largest}"
+        )
     return seed
 
 
 def _pack(options: argparse.Namespace) -> None:
     scene = api.load_scene(options.scene)
     seed = scene.seeds[0] if options.seed is None else options.seed
-    api.require_writable(options.output)
+    _require_place(options.output, options.scene)
     database = api.build_shapes(scene)
     api.warn_of_uncovered(scene, database)
     with api.progress_bar() as progress:
@@ -116,13 +123,20 @@ def _pack(options: argparse.Namespace) -> None:
 
 
 def _shapes(options: argparse.Namespace) -> None:
-    api.require_writable(options.output)
+    _require_place(options.output, options.source)
     source = _source(options.source, options.kind)
     database = api.build_shapes_of(source)
     api.write_shapes(options.output, database, source)
     for what, count in database.counts.items():
         print(f"{what.replace('_', ' ')}: {count}")
     print(f"{database.count} shapes written to {options.output}")
+
+
+def _require_place(output: str, source: str) -> None:
+    """Raise InputError, before any work is done, where the output cannot or must not be written."""
+    require_writable(output)
+    if Path(output).exists() and Path(source).exists() and Path(output).samefile(source):
+        raise InputError(f"{output}: is the source itself, but must be another file")
 
 
 def _source(text: str, kind: str) -> ShapeSource:

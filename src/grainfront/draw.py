@@ -33,9 +33,11 @@ class Coverage(NamedTuple):
 def coverage(descriptor: np.ndarray, law: Law, n_bin: int = 24) -> Coverage:
     """Compare the `descriptor` (n_shapes,) of a database with the bins of the law it is to follow.
 
-    Report it wherever `draw_particles` matches that law: a shortfall is never silent.
+    Report it wherever `draw_particles` matches that law: a shortfall is never silent. Raises
+    InputError where all shapes lie beyond the same end of the law.
     """
     edges, probabilities = law.bins(n_bin)
+    _require_reached(np.asarray(descriptor), edges)
     index = bin_of(edges, descriptor)
     inside = (index >= 0) & (index < probabilities.size)
     shapes_per_bin = np.bincount(index[inside], minlength=probabilities.size)
@@ -56,7 +58,8 @@ def draw_particles(
 
     `matched` is a descriptor of the database's shapes, (shape_count,), and the law it is to follow;
     without it every shape is drawn equally often, in random order. Raises InputError where no
-    shape has a finite descriptor (the regularity of a convex outline is infinite).
+    shape has a finite descriptor (the regularity of a convex outline is infinite), and where all
+    shapes lie beyond the same end of the law.
     """
     size_rng, descriptor_rng, shape_rng = rng.spawn(3)
     size = stratified(size_law, n, size_rng)
@@ -76,17 +79,29 @@ def closest_shapes(
     The choice is among the CLOSEST_SHAPES closest in the bin of the wanted value, so that the bins
     (`edges`, n_bin + 1) fill as wanted; where that bin has no shape, among the closest of all.
     """
+    _require_reached(descriptor, edges)
     usable = np.flatnonzero(np.isfinite(descriptor))
-    if usable.size == 0:
-        raise InputError(
-            "none of the shapes has a finite value of the descriptor that is to follow a law "
-            "(the regularity of a convex outline is infinite)"
-        )
     shape = usable[np.argsort(descriptor[usable], kind="stable")]
     value = descriptor[shape]
     first, last = _range_to_choose_from(bin_of(edges, value), bin_of(edges, wanted), shape.size)
     start, stop = _grow_to_closest(value, wanted, first, last)
     return shape[rng.integers(start, stop)]
+
+
+def _require_reached(descriptor: np.ndarray, edges: np.ndarray) -> None:
+    """Raise InputError where the law of these bins lies apart from all shapes."""
+    value = descriptor[np.isfinite(descriptor)]
+    if value.size == 0:
+        raise InputError(
+            "none of the shapes has a finite value of the descriptor that is to follow the law "
+            "(the regularity of a convex outline is infinite)"
+        )
+    index = bin_of(edges, value)
+    if (index < 0).all() or (index >= edges.size - 1).all():
+        raise InputError(
+            f"the law goes from {edges[0]:.6g} to {edges[-1]:.6g}, but must meet the values of the "
+            f"shapes, which go from {value.min():.6g} to {value.max():.6g}"
+        )
 
 
 def _range_to_choose_from(

@@ -184,6 +184,12 @@ def test_an_output_that_cannot_be_is_told_before_packing(folder, capsys, monkeyp
     assert output.split("/")[0] in refused(capsys, "pack", "s.yaml", "-o", output)
 
 
+def test_the_scene_is_never_overwritten(folder, capsys, monkeypatch):
+    monkeypatch.setattr("grainfront.api.pack", None)
+    assert "is the source itself" in refused(capsys, "pack", "s.yaml", "-o", "./s.yaml")
+    assert Path("s.yaml").read_text() == SCENE
+
+
 def test_a_full_disk_is_told_in_one_sentence(folder, capsys, monkeypatch):
     def full(*_):
         raise OSError(28, "No space left on device")
@@ -193,7 +199,7 @@ def test_a_full_disk_is_told_in_one_sentence(folder, capsys, monkeypatch):
     assert os.listdir() == ["s.yaml"]
 
 
-@pytest.mark.parametrize("seed", ["-1", "x"])
+@pytest.mark.parametrize("seed", ["-1", "x", "9223372036854775808"])
 def test_a_seed_is_a_whole_number_from_zero(folder, capsys, seed):
     with pytest.raises(SystemExit) as end:
         main(["pack", "s.yaml", "-o", "p.nc", f"--seed={seed}"])

@@ -105,6 +105,18 @@ def test_shapes_without_a_finite_descriptor_are_never_matched():
         draw_particles(3, SIZE, 10, rng, (np.full(3, np.inf), laws.Uniform(0.5, 2.5)))
 
 
+def test_a_law_apart_from_all_shapes_is_refused():
+    descriptor = np.array([1.1, 1.3, 1.5])
+    rng = np.random.default_rng(4)
+    for law in (laws.Constant(1.5 * (1 + 1e-12)), laws.Constant(1.2), laws.Uniform(1.4, 9.0)):
+        assert draw_particles(3, SIZE, 10, rng, (descriptor, law))[0].size == 10
+    for law in (laws.Constant(50.0), laws.Uniform(1.6, 2.0), laws.Uniform(1.0, 1.05)):
+        with pytest.raises(InputError, match=r"must meet the values of .* 1\.1 to 1\.5"):
+            draw_particles(3, SIZE, 10, rng, (descriptor, law))
+        with pytest.raises(InputError, match="must meet the values"):
+            coverage(descriptor, law)
+
+
 def test_without_a_matched_law_every_shape_is_used_equally_often_in_random_order():
     shape, size = draw_particles(37, SIZE, 37 * 20 + 5, np.random.default_rng(1))
     assert set(np.bincount(shape, minlength=37)) <= {20, 21}

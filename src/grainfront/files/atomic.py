@@ -15,14 +15,11 @@ from grainfront.errors import InputError
 def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
     """Yield a temporary name beside `path`; rename it to `path` if the block ends without error.
 
-    An existing file at `path` stays untouched until then. Errors: InputError where the folder
-    does not exist or cannot be written to; whatever the block raises.
+    An existing file at `path` stays untouched until then. Errors: those of `require_writable`;
+    whatever the block raises.
     """
     path = Path(path)
-    if not path.parent.is_dir():
-        raise InputError(f"{path}: the folder {path.parent} does not exist")
-    if not os.access(path.parent, os.W_OK):
-        raise InputError(f"{path}: the folder {path.parent} is not writable")
+    require_writable(path)
     # The suffix stays, because some writers choose the format by it.
     temporary = path.with_name(f".{path.stem}.{uuid.uuid4().hex}.partial{path.suffix}")
     try:
@@ -32,6 +29,23 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
         _sync(path.parent)
     finally:
         temporary.unlink(missing_ok=True)
+
+
+def require_writable(path: str | os.PathLike[str]) -> None:
+    """Raise InputError where no file can be put at `path`.
+
+    That is where its folder does not exist or cannot be written to, where something else than a
+    file, such as a folder or a device, would be replaced, and where its name is not in UTF-8.
+    """
+    path = Path(path)
+    if str(path).encode(errors="replace") != str(path).encode(errors="surrogateescape"):
+        raise InputError(f"{str(path)!a}: is not a name in UTF-8")
+    if path.exists() and not path.is_file():
+        raise InputError(f"{path}: is a folder or a device, but must be the name of a file")
+    if not path.parent.is_dir():
+        raise InputError(f"{path}: the folder {path.parent} does not exist")
+    if not os.access(path.parent, os.W_OK):
+        raise InputError(f"{path}: the folder {path.parent} is not writable")
 
 
 def write_text(path: str | os.PathLike[str], text: str) -> None:

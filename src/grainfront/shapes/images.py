@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import logging
+import warnings
 from pathlib import Path
 from typing import NamedTuple
 
@@ -14,6 +16,9 @@ from grainfront.errors import InputError
 from grainfront.polygons import Polygons
 from grainfront.shapes.outlines import trace_labels
 from grainfront.shapes.sources import BinaryMasks, LabelMasks, Photographs, Segmentation
+
+# What tifffile logs of a damaged file is told by the error that follows.
+logging.getLogger("tifffile").addHandler(logging.NullHandler())
 
 SHIPPED = "skimage:"
 # The photographs and the silhouette inside scikit-image's own package, which need no download.
@@ -76,7 +81,9 @@ def read_image(path: str) -> np.ndarray:
     if not Path(path).is_file():
         raise InputError(f"{path}: there is no such image file.")
     try:
-        pixels = np.asarray(io.imread(path))
+        # what the readers warn of, such as a large image, either ends in an error or is none
+        with warnings.catch_warnings(action="ignore"):
+            pixels = np.asarray(io.imread(path))
     except Exception as reason:  # each of the image readers raises errors of its own
         raise InputError(f"{path}: not a readable image ({_first_line(reason)}).") from reason
     if pixels.ndim not in (2, 3) or pixels.size == 0:
@@ -127,10 +134,12 @@ def _grey(path: str, pixels: np.ndarray) -> np.ndarray:
         pixels = color.rgb2gray(pixels)
     if pixels.ndim != 2:
         raise InputError(f"{path}: neither grey nor RGB, its shape is {pixels.shape}.")
-    if not np.isfinite(pixels).all():
-        raise InputError(f"{path}: some grey values are not finite numbers.")
+    if pixels.dtype.kind not in "buif" or not np.isfinite(pixels).all():
+        raise InputError(f"{path}: some grey values are not finite real numbers.")
     grey = util.img_as_float64(pixels) if pixels.dtype.kind in "bui" else pixels.astype(np.float64)
-    low, high = grey.min(), grey.max()
+    low, high = float(grey.min()), float(grey.max())
+    if not np.isfinite(high - low):
+        raise InputError(f"{path}: grey values from {low:g} to {high:g} are too far apart.")
     if low == high:
         raise InputError(f"{path}: an image of a single grey value holds no grain.")
     return (grey - low) / (high - low)

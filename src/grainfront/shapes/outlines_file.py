@@ -14,6 +14,11 @@ from shapely.geometry import shape
 from grainfront.errors import InputError
 from grainfront.polygons import Polygons
 
+# Outlines are larger and smaller than these, so that fourth powers of lengths neither overflow nor
+# vanish; and hold more than this share of their extent squared, or rounding would shape them.
+SMALLEST_EXTENT, LARGEST_EXTENT = 1e-50, 1e50
+LEAST_FILLED = 1e-9
+
 # Where an outline stands in its file ("feature 3", "line 7", "outline a"), its nodes, its holes.
 Placed = tuple[str, np.ndarray, int]
 
@@ -35,14 +40,19 @@ def read_outlines(path: str) -> tuple[Polygons, dict[str, int]]:
         allowed = ", ".join(readers)
         raise InputError(f"{path}: outlines are read from files ending in {allowed}.")
     try:
-        text = Path(path).read_text(encoding="utf-8")
+        text = Path(path).read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as reason:
-        raise InputError(f"{path}: not readable as text ({reason}).") from reason
+        raise InputError(f"{path}: not readable as text in UTF-8 ({reason}).") from reason
     holes = 0
     outlines = []
-    for place, nodes, n_holes in readers[suffix](path, text):
-        outlines.append(_checked(path, place, nodes))
-        holes += int(n_holes > 0)
+    try:
+        for place, nodes, n_holes in readers[suffix](path, text):
+            outlines.append(_checked(path, place, nodes))
+            holes += int(n_holes > 0)
+    except csv.Error as reason:
+        raise InputError(f"{path}: not CSV ({reason}).") from reason
+    except RecursionError as reason:
+        raise InputError(f"{path}: its lists or collections are nested too deeply.") from reason
     if not outlines:
         raise InputError(f"{path}: no outline in this file; at least one polygon is needed.")
     counts = {"found": len(outlines), "kept": len(outlines), "hole": holes}
@@ -58,10 +68,21 @@ def _checked(path: str, place: str, nodes: np.ndarray) -> np.ndarray:
     distinct = len(np.unique(nodes, axis=0))
     if distinct < 3:
         raise InputError(f"{path}, {place}: {distinct} distinct vertices; 3 or more are needed.")
+    extent = float(np.ptp(nodes, axis=0).max())
+    if not SMALLEST_EXTENT <= extent <= LARGEST_EXTENT:
+        raise InputError(
+            f"{path}, {place}: the outline is {extent:g} wide; allowed are {SMALLEST_EXTENT:g} to "
+            f"{LARGEST_EXTENT:g}."
+        )
     polygon = shapely.Polygon(nodes)
     if not polygon.is_valid or polygon.area == 0.0:
         reason = shapely.is_valid_reason(polygon) if not polygon.is_valid else "its area is 0"
         raise InputError(f"{path}, {place}: the outline is not a simple polygon ({reason}).")
+    if polygon.area < LEAST_FILLED * extent**2:
+        raise InputError(
+            f"{path}, {place}: the outline is too thin; it must hold {LEAST_FILLED:g} of the "
+            "square of its extent."
+        )
     return nodes if polygon.exterior.is_ccw else nodes[::-1]
 
 
@@ -75,15 +96,20 @@ def _geojson(path: str, text: str) -> Iterator[Placed]:
     if not isinstance(content, dict):
         raise InputError(f"{path}: GeoJSON is one object, this is a {type(content).__name__}.")
     collection = content.get("type") == "FeatureCollection"
-    features = content.get("features", []) if collection else [content]
+    features = content.get("features") if collection else [content]
+    if not isinstance(features, list):
+        raise InputError(f"{path}: the features are {features!r:.60}; a list is needed.")
     for number, feature in enumerate(features, start=1):
         place = f"feature {number}"
         is_feature = isinstance(feature, dict) and feature.get("type") == "Feature"
+        found = feature.get("geometry") if is_feature else feature
+        if not isinstance(found, dict) or "type" not in found:
+            raise InputError(f"{path}, {place}: no GeoJSON geometry, which has a type.")
         try:
             with np.errstate(invalid="ignore"):  # NaN is told with its place, below
-                geometry = shape(feature["geometry"] if is_feature else feature)
+                geometry = shape(found)
         except Exception as reason:  # shapely raises many kinds for malformed geometry
-            raise InputError(f"{path}, {place}: not a GeoJSON geometry ({reason!r}).") from reason
+            raise InputError(f"{path}, {place}: not a GeoJSON geometry ({reason}).") from reason
         yield from _rings(path, place, geometry)
 
 
@@ -93,7 +119,7 @@ def _wkt(path: str, text: str) -> Iterator[Placed]:
             continue
         try:
             geometry = shapely.from_wkt(line)
-        except (shapely.GEOSException, ValueError) as reason:
+        except (shapely.GEOSException, ValueError, NotImplementedError) as reason:
             raise InputError(f"{path}, line {number}: not WKT ({reason}).") from reason
         yield from _rings(path, f"line {number}", geometry)
 
@@ -110,10 +136,12 @@ def _rings(path: str, place: str, geometry: shapely.Geometry) -> Iterator[Placed
 
 
 def _csv(path: str, text: str) -> Iterator[Placed]:
-    rows = csv.DictReader(text.splitlines())
-    if not {"outline", "x", "y"} <= set(rows.fieldnames or ()):
+    rows = csv.DictReader(text.splitlines(), skipinitialspace=True)
+    columns = rows.fieldnames or ()
+    if not {"outline", "x", "y"} <= set(columns):
+        found = ", ".join(columns) or "missing"
         raise InputError(
-            f"{path}, line 1: the columns are {rows.fieldnames}; outline, x and y are needed."
+            f"{path}, line 1: the columns are {found:.200}; outline, x and y are needed."
         )
     nodes: dict[str, list[tuple[float, float]]] = {}
     for row in rows:

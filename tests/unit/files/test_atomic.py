@@ -10,7 +10,7 @@ import sys
 import pytest
 
 from grainfront.errors import InputError
-from grainfront.files.atomic import replacing, write_text
+from grainfront.files.atomic import replacing, require_writable, write_text
 
 
 def test_the_file_appears_at_the_end(tmp_path):
@@ -61,3 +61,18 @@ def test_permissions_are_those_of_an_ordinary_file(tmp_path):
 def test_a_missing_folder_is_named(tmp_path):
     with pytest.raises(InputError, match="nowhere does not exist"):
         write_text(tmp_path / "nowhere" / "a.txt", "")
+
+
+def test_only_files_are_replaced(tmp_path):
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    for path in (pipe, tmp_path):
+        with pytest.raises(InputError, match="a folder or a device"):
+            write_text(path, "")
+    assert pipe.is_fifo()
+
+
+def test_a_name_that_is_not_in_utf_8_is_refused(tmp_path):
+    require_writable(tmp_path / "é.nc")
+    with pytest.raises(InputError, match="not a name in UTF-8"):
+        require_writable(os.fsdecode(os.fsencode(tmp_path) + b"/\xe9.nc"))

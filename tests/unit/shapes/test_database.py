@@ -153,6 +153,14 @@ def test_bad_images_are_named(tmp_path):
             assert str(path) in str(caught.value)
     with pytest.raises(InputError, match=r"empty\.png.*no grain"):
         build_database(LabelMasks((str(empty),)), rng)
+    for name, dtype, message in [
+        ("complex.tif", np.complex64, "not finite real numbers"),
+        ("huge.tif", np.float64, "too far apart"),
+    ]:
+        pixels = np.where(np.eye(40), 1.7e308, -1.7e308) if dtype == np.float64 else np.eye(40)
+        io.imsave(str(tmp_path / name), pixels.astype(dtype), check_contrast=False)
+        with pytest.raises(InputError, match=f"{name}: .*{message}"):
+            build_database(Photographs((str(tmp_path / name),)), rng)
     with pytest.raises(InputError, match=r"dots\.png: no grain to keep.*speck"):
         build_database(BinaryMasks((str(dots),)), rng)
 

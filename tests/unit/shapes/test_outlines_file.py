@@ -41,6 +41,20 @@ def test_every_format_gives_the_same_outlines(tmp_path, name):
     assert counts == {"found": 2, "kept": 2, "hole": 0}
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "\ufeffoutline,x,y\r\na,0,0\r\na,2,0\r\na,2,1\r\n",
+        "outline, x, y\na, 0, 0\na, 2, 0\na, 2, 1\n",
+    ],
+    ids=["Windows", "spaces"],
+)
+def test_csv_files_as_spreadsheets_write_them(tmp_path, text):
+    path = tmp_path / "a.csv"
+    path.write_bytes(text.encode())
+    assert read_outlines(str(path))[0].nodes.tolist() == [[0, 0], [2, 0], [2, 1]]
+
+
 def test_holes_are_filled_and_counted(tmp_path):
     path = tmp_path / "a.wkt"
     path.write_text("POLYGON ((0 0, 9 0, 0 9, 0 0), (1 1, 2 1, 1 2, 1 1))")
@@ -65,6 +79,15 @@ BAD = [
     ("a.csv", "outline,x,y\na,0,0\na,1,0\n", "outline a: 2 distinct vertices"),
     ("a.csv", "outline,x,y\na,0,0\na,1,0\na,2,0\n", "outline a.*simple"),
     ("a.txt", "", "files ending in"),
+    ("a.geojson", '{"type": "FeatureCollection", "features": null}', "features are None"),
+    ("a.geojson", '{"type": "Feature", "geometry": null}', "feature 1: no GeoJSON geometry"),
+    ("a.geojson", "[" * 100_000, "nested too deeply"),
+    ("a.geojson", collection([[0, 0], [2e200, 0], [2e200, 2e200]]), "feature 1.*2e\\+200 wide"),
+    ("a.geojson", collection([[0, 0], [1, 0], [1, 1e-14]]), "feature 1.*too thin"),
+    ("a.wkt", "CURVEPOLYGON (CIRCULARSTRING (0 0, 4 0, 4 4, 0 4, 0 0))", "line 1: not WKT"),
+    ("a.csv", "", "line 1: the columns are missing"),
+    ("a.csv", "outline;x;y\n", "the columns are outline;x;y; outline, x and y are needed"),
+    ("a.csv", f"outline,x,y\n{'a' * 200_000},0,0\n", "field larger than field limit"),
 ]
 
 
