@@ -6,7 +6,6 @@ What a stage alone needs is imported when it is called, so that a scene pays onl
 from __future__ import annotations
 
 import math
-import os
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -79,7 +78,10 @@ def shape_coverage(scene: Scene, database: ShapeDatabase) -> Coverage | None:
     if scene.matched is None:
         return None
     name, law = scene.matched
-    return coverage(database.descriptors[name], law)
+    try:
+        return coverage(database.descriptors[name], law)
+    except InputError as error:
+        raise InputError(f"{scene.name}: {name}: {error}") from None
 
 
 def pack(
@@ -92,12 +94,15 @@ def pack(
 
     `seed` decides sizes, shapes and orientations: the same scene, database and seed give the same
     packing, bit for bit. `progress` is told the particles placed and the volume fraction so far.
-    Raises InputError where no shape has the descriptor that is to follow a law.
+    Raises InputError where no shape has the descriptor that is to follow a law, and where the
+    domain lies too far from the origin, or is too small or too large for the grains.
     Source: Du et al. (2023), doi 10.1016/j.jrmge.2022.03.009, sections 3 and 4.
     """
     from grainfront.packing.orientations import STEPS_A_BIN, orientation_law
     from grainfront.packing.pack import pack_hulls
 
+    _require_resolved(scene)
+    shape_coverage(scene, database)
     shape, size = _draw_enough(scene, database, seed)
     effort = scene.packing
     law = scene.orientation
@@ -121,6 +126,23 @@ def pack(
             f"{scene.domain.height:g} {scene.length_unit}: it must have room for the grains drawn"
         )
     return packing, run_time
+
+
+def _require_resolved(scene: Scene) -> None:
+    """Raise InputError where the rounding of coordinates would open the contacts of the grains."""
+    from grainfront.packing.state import CLEARANCE_ULPS
+    from grainfront.statistics.contacts import CONTACT_TOLERANCE
+
+    domain = scene.domain
+    farthest = max(map(abs, (domain.x_min, domain.y_min, domain.x_max, domain.y_max)))
+    # the clearance between placed particles may take up half of a contact's tolerance
+    clearance = 0.5 * CONTACT_TOLERANCE * scene.size.moment(1)
+    allowed = clearance / (CLEARANCE_ULPS * float(np.spacing(1.0)))
+    if farthest > allowed:
+        raise InputError(
+            f"{scene.name}: domain reaches to a coordinate of {farthest:g}, but must stay within "
+            f"{allowed:.3g}, beyond which rounding spoils the contacts of grains of these sizes"
+        )
 
 
 def _draw_enough(scene: Scene, database: ShapeDatabase, seed: int) -> tuple[np.ndarray, np.ndarray]:
@@ -240,15 +262,6 @@ def write_packing(path: str | Path, packing: Packing, scene: Scene, seed: int) -
     )
 
 
-def require_writable(path: str | Path) -> None:
-    """Raise InputError, before any work is done, where no file can be written at `path`."""
-    path = Path(path)
-    if path.is_dir():
-        raise InputError(f"{path}: is a folder, but must be the name of a file")
-    if not os.access(path.parent, os.W_OK):
-        raise InputError(f"{path}: the folder {path.parent} must be there and writable")
-
-
 def warn_of_uncovered(scene: Scene, database: ShapeDatabase) -> None:
     """Say on standard error which share of the particles cannot follow the law of a descriptor."""
     found = shape_coverage(scene, database)
@@ -265,6 +278,8 @@ def warn_of_uncovered(scene: Scene, database: ShapeDatabase) -> None:
 def sentence(error: Exception) -> str:
     """What a user is told of an error in the input or in reading and writing: one sentence."""
     text = " ".join(str(error).split()).rstrip(".") or type(error).__name__
+    if isinstance(error, MemoryError):
+        text = f"the memory of this machine does not suffice ({text})"
     return f"grainfront: {text}."
 
 

@@ -60,7 +60,7 @@ def stage(run: Callable[P, None]) -> Callable[P, None]:
     def told(*args: P.args, **kwargs: P.kwargs) -> None:
         try:
             run(*args, **kwargs)
-        except (InputError, OSError) as error:
+        except (InputError, OSError, MemoryError) as error:
             raise SystemExit(api.sentence(error)) from None
 
     return told

@@ -135,6 +135,24 @@ def test_a_domain_without_room_for_any_grain_is_refused(database):
         grainfront.pack(narrow, database, 1)
 
 
+def test_a_law_that_no_shape_meets_is_told_with_its_key(database):
+    beyond = scene(matched=("aspect_ratio", Constant(50.0)))
+    with pytest.raises(InputError, match="aspect_ratio: the law goes from 50 to 50, but must meet"):
+        grainfront.pack(beyond, database, 1)
+
+
+def test_a_domain_too_far_from_the_origin_is_refused(database):
+    far = scene(domain=Rectangle(1e12, 0.0, 1e12 + 20.0, 20.0), size=Constant(2.0))
+    with pytest.raises(InputError, match=r"coordinate of 1e\+12, but must stay within 7\.04e\+07"):
+        grainfront.pack(far, database, 1)
+
+
+def test_want_of_memory_is_told_in_one_sentence():
+    assert api.sentence(MemoryError()) == (
+        "grainfront: the memory of this machine does not suffice (MemoryError)."
+    )
+
+
 def test_a_certificate_that_does_not_hold_is_told(database):
     packing, _ = grainfront.pack(scene(), database, 1)
     nodes = packing.polygons.nodes.copy()
