@@ -35,7 +35,7 @@ def find_contacts(nodes, n, tangents, trials, places):
     for k in range(tangents.shape[0]):
         contact = contact_with_polygons(
             nodes, 2 * k * n, n, tangents[k, 0], (2 * k + 1) * n, n, tangents[k, 1],
-            trials, k * n, n, 0,
+            trials, k * n, n,
         )  # fmt: skip
         found += contact[0]
         places[k, 0] = contact[1]

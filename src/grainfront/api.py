@@ -50,8 +50,8 @@ SHAPES_SEED = 0
 # A domain is never full, so particles of its whole area would be enough if their mean area were
 # exact; the margin is for the scatter of that mean.
 AREA_MARGIN = 1.05
-# The least n_angle and n_loc of the plain and of the optimised advancing front method.
-EFFORTS = {"AFM": 1, "OAFM": 2}
+# More particles than this are refused: their arrays would fill some 10 GB.
+MOST_PARTICLES = 5 * 10**7
 # A progress bar shows up only on packings that take longer than this.
 SECONDS_BEFORE_BAR = 1.0
 
@@ -156,15 +156,22 @@ def _draw_enough(scene: Scene, database: ShapeDatabase, seed: int) -> tuple[np.n
         name, law = scene.matched
         matched = database.descriptors[name], law
     mean_area = float(hull_area.mean()) * scene.size.moment(2)
+    narrowest = min(scene.domain.width, scene.domain.height)
     n = math.ceil(AREA_MARGIN * scene.domain.area / mean_area) + WAITING_PLACES
-    while True:
+    while n <= MOST_PARTICLES:
         rng = _generator(seed, DRAW_STAGE)
         shape, size = draw_particles(database.count, scene.size, n, rng, matched)
-        area = hull_area[shape] * size**2
+        area = np.where(size <= narrowest, hull_area[shape] * size**2, 0.0)
         largest = np.partition(area, -WAITING_PLACES)[-WAITING_PLACES:]
-        if area.sum() >= scene.domain.area + largest.sum():
+        wanted = scene.domain.area + largest.sum()
+        if area.sum() >= wanted or not area.any():
             return shape, size
-        n = math.ceil(AREA_MARGIN * n) + WAITING_PLACES
+        n = math.ceil(AREA_MARGIN * n * wanted / area.sum())
+    raise InputError(
+        f"{scene.name}: a domain of {scene.domain.width:g} × {scene.domain.height:g} takes more "
+        f"than {MOST_PARTICLES:,} particles of these sizes to fill, but at most that many are "
+        "allowed"
+    )
 
 
 def _generator(seed: int, stage: int) -> np.random.Generator:
@@ -300,24 +307,24 @@ def progress_bar() -> Iterator[Callable[[int, float], None] | None]:
         yield tell
 
 
-def method(scene: Scene) -> str:
-    """AFM where there is nothing to optimise, else OAFM."""
-    return "AFM" if scene.packing.n_angle == scene.packing.n_loc == 1 else "OAFM"
+def search(scene: Scene) -> str:
+    """How the lowest trials of a scene are found, "exhaustive" or "pruned": it has own kernels."""
+    from grainfront.packing import search_of
+
+    return search_of(scene.packing.n_angle, scene.packing.n_loc)
 
 
-def compile_kernels(method: str) -> None:
-    """Compile all kernels that packings by a method, AFM or OAFM, need, down to the statistics."""
-    from grainfront.jit import compile_once
+def compile_kernels(search: str) -> None:
+    """Compile all kernels that packings by a search need, down to the certificate."""
+    from grainfront.jit import compiling
+    from grainfront.packing import PRUNED_FROM_N_LOC
 
-    scene, database = _smallest_scene(trials=EFFORTS[method])
+    scene, database = _smallest_scene(PRUNED_FROM_N_LOC if search == "pruned" else 1)
     packing, _ = pack(scene, database, seed=0)
-
-    def prove_and_measure() -> None:
+    with compiling("certificate"):
         for one in (packing, replace(packing, database)):
             certify(one)
             measure(scene, database, one)
-
-    compile_once("certificate", prove_and_measure)
 
 
 def _smallest_scene(trials: int) -> tuple[Scene, ShapeDatabase]:

@@ -12,7 +12,9 @@ import os
 import sys
 import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -75,15 +77,22 @@ def inlined(function: Callable[..., Any]) -> Any:
     return numba.njit(forceinline=True, **_OPTIONS)(function)
 
 
-def compile_once(name: str, compile_kernels: Callable[[], None]) -> float:
-    """Have kernels compiled, or read from the cache, and return the seconds it took.
+@dataclass
+class Compilation:
+    """The seconds that compiling kernels took, or reading them from the cache."""
 
-    A line on standard error says so where they are compiled for the first time.
-    """
+    seconds: float = 0.0
+
+
+@contextmanager
+def compiling(name: str) -> Iterator[Compilation]:
+    """Time the first calls of kernels; say so on standard error where they are yet to compile."""
     compiled = cache_folder() / f"{name}.compiled"
-    if not compiled.exists():
-        print(f"Compiling the {name} kernels, once for this version …", file=sys.stderr, flush=True)
+    config: Any = numba.config
+    if not compiled.exists() and not config.DISABLE_JIT:
+        print(f"Compiling the kernels of the {name}, once …", file=sys.stderr, flush=True)
+    compilation = Compilation()
     start = time.perf_counter()
-    compile_kernels()
+    yield compilation
+    compilation.seconds = time.perf_counter() - start
     compiled.touch()
-    return time.perf_counter() - start

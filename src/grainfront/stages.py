@@ -76,9 +76,9 @@ def shapes(*, scene: str, database: str) -> None:
 
 
 @stage
-def kernels(*, method: str) -> None:
-    """Compile all that packings by a method need, once, before they run side by side."""
-    api.compile_kernels(method)
+def kernels(*, search: str) -> None:
+    """Compile all that packings by a search need, once, before they run side by side."""
+    api.compile_kernels(search)
 
 
 @stage

@@ -4,12 +4,12 @@
 # Runs again with the sources of the packing; packings made already do not mind (`ancient`).
 rule kernels:
     output:
-        compiled=touch("results/.{method}.compiled"),
+        compiled=touch("results/.{search}.compiled"),
     params:
         sources=stages.sources_digest("packing"),
     wildcard_constraints:
-        method="AFM|OAFM",
+        search="exhaustive|pruned",
     message:
-        "kernels of the {wildcards.method}: compiled, or found in the cache"
+        "kernels of the {wildcards.search} search: compiled, or found in the cache"
     script:
         "../scripts/kernels.py"

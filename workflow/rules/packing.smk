@@ -5,7 +5,7 @@
 rule packing:
     input:
         database="results/{scene}/shapes.nc",
-        compiled=ancient(lambda w: f"results/.{api.method(SCENES[w.scene])}.compiled"),
+        compiled=ancient(lambda w: f"results/.{api.search(SCENES[w.scene])}.compiled"),
     output:
         packing="results/{scene}/{seed}/packing.nc",
         timing="results/{scene}/{seed}/timing.json",

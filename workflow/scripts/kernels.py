@@ -1,3 +1,3 @@
 from grainfront import stages
 
-stages.kernels(method=snakemake.wildcards.method)
+stages.kernels(search=snakemake.wildcards.search)

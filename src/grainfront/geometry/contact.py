@@ -61,12 +61,11 @@ def crossing(nodes, ia, ib, trial, ja, jb, eax, eay, ebx, eby):
 
 
 @inlined
-def contact_with_polygons(nodes, a0, na, ia, b0, nb, ib, trial, t0, nt, hint):
+def contact_with_polygons(nodes, a0, na, ia, b0, nb, ib, trial, t0, nt):
     """Centre of N in contact with A and B, to the left of A → B.
 
-    `ia`, `ib` are the vertices of their common tangent; `hint` is any vertex of N, best one close
-    to the support vertex. Returns (found, x, y, ia, ja, ib, jb), with the vertices of A, N and of
-    B, N where the edges end that cross.
+    `ia`, `ib` are the vertices of their common tangent. Returns (found, x, y, ia, ja, ib, jb), with
+    the vertices of A, N and of B, N where the edges end that cross.
     """
     pax = nodes[a0 + ia, 0]
     pay = nodes[a0 + ia, 1]
@@ -74,7 +73,7 @@ def contact_with_polygons(nodes, a0, na, ia, b0, nb, ib, trial, t0, nt, hint):
     pby = nodes[b0 + ib, 1]
     ux = pbx - pax
     uy = pby - pay
-    j = climb(trial, t0, nt, hint, uy, -ux)
+    j = climb(trial, t0, nt, 0, uy, -ux)
     pax -= trial[t0 + j, 0]
     pay -= trial[t0 + j, 1]
     pbx -= trial[t0 + j, 0]
@@ -83,42 +82,39 @@ def contact_with_polygons(nodes, a0, na, ia, b0, nb, ib, trial, t0, nt, hint):
     ebx, eby, ib, jb = counterclockwise_edge(nodes, b0, nb, ib, trial, t0, nt, j)
     depth_a = -cross(ux, uy, eax, eay)
     depth_b = -cross(ux, uy, ebx, eby)
+    crossed = False
     for _ in range(2 * (na + nb + nt)):
         turn = cross(eax, eay, ebx, eby)
         if turn >= 0.0:
             along = eax * ebx + eay * eby
             if along >= 0.0 or turn > -PARALLEL * along:
-                return (
-                    False,
-                    0.0,
-                    0.0,
-                    ia,
-                    j,
-                    ib,
-                    j,
-                )  # the boundaries diverge without having crossed
+                break  # the boundaries diverge
         if depth_a <= depth_b:
             endx = pax + eax
             endy = pay + eay
-            if cross(ebx, eby, endx - pbx, endy - pby) > 0.0:
+            crossed = cross(ebx, eby, endx - pbx, endy - pby) > 0.0
+            if crossed:
                 break
             pax, pay = endx, endy
             eax, eay, ia, ja = clockwise_edge(nodes, a0, na, ia, trial, t0, nt, ja)
             down = -cross(ux, uy, eax, eay)
             if down < -PARALLEL * abs(ux * eax + uy * eay):
-                return False, 0.0, 0.0, ia, j, ib, j  # the lower end of A ⊕ −N
+                break  # the lower end of A ⊕ −N
             depth_a += down
         else:
             endx = pbx + ebx
             endy = pby + eby
-            if cross(eax, eay, endx - pax, endy - pay) < 0.0:
+            crossed = cross(eax, eay, endx - pax, endy - pay) < 0.0
+            if crossed:
                 break
             pbx, pby = endx, endy
             ebx, eby, ib, jb = counterclockwise_edge(nodes, b0, nb, ib, trial, t0, nt, jb)
             down = -cross(ux, uy, ebx, eby)
             if down < -PARALLEL * abs(ux * ebx + uy * eby):
-                return False, 0.0, 0.0, ia, j, ib, j  # the lower end of B ⊕ −N
+                break  # the lower end of B ⊕ −N
             depth_b += down
+    if not crossed:
+        return False, 0.0, 0.0, ia, ja, ib, jb
     x, y = crossing(nodes, a0 + ia, b0 + ib, trial, t0 + ja, t0 + jb, eax, eay, ebx, eby)
     return True, x, y, ia, ja, ib, jb
 

@@ -18,8 +18,8 @@ WAITING_PLACES = 8
 
 # What the loop remembers between calls. PARKED of the waiting particles found no place in a whole
 # row, without the top being the reason: too wide for the domain, say. They are left for later rows.
-N_PLACED, N_DRAWN, N_WAITING, TURN, PARKED, N_FAILED = range(6)
-PLACED_IN_ROW, TOO_HIGH_IN_ROW, FINISHED, N_COUNTERS = range(6, 10)
+N_PLACED, N_DRAWN, N_TOO_LARGE, N_WAITING, TURN, PARKED, N_FAILED = range(7)
+PLACED_IN_ROW, TOO_HIGH_IN_ROW, FINISHED, N_COUNTERS = range(7, 11)
 # Each failure moves the random offset of the next trial orientations on by the golden ratio, so
 # that a particle that is tried again is tried in other orientations.
 GOLDEN_RATIO = 0.6180339887498949
@@ -78,13 +78,16 @@ def pass_on(front, counters, n_waiting_places, supply_left):
 
 
 @inlined
-def next_particle(waiting, counters, turn):
-    """The particle whose turn it is among those that wait, or else a new one, which joins them."""
-    if turn == counters[N_WAITING]:
-        waiting[turn] = counters[N_DRAWN]
-        counters[N_DRAWN] += 1
-        counters[N_WAITING] += 1
-    return waiting[turn]
+def draw_next(waiting, counters, supply, narrowest):
+    """Draw a particle to wait for its turn; true where it is too wide for the domain: left over."""
+    source = counters[N_DRAWN]
+    counters[N_DRAWN] += 1
+    if supply.size[source] > narrowest:
+        counters[N_TOO_LARGE] += 1
+        return True
+    waiting[counters[N_WAITING]] = source
+    counters[N_WAITING] += 1
+    return False
 
 
 @inlined
@@ -118,13 +121,16 @@ def advance(
     advancing front method.
     """
     places = waiting.size
+    narrowest = min(domain.x_max - domain.x_min, domain.y_max - domain.y_min)
     while counters[N_PLACED] < limit and not counters[FINISHED]:
         turn = counters[TURN]
         supply_left = counters[N_DRAWN] < supply.size.size
         if turn == counters[N_WAITING] and (turn == places or not supply_left):
             pass_on(front, counters, places, supply_left)
             continue
-        source = next_particle(waiting, counters, turn)
+        if turn == counters[N_WAITING] and draw_next(waiting, counters, supply, narrowest):
+            continue
+        source = waiting[turn]
         offset = (supply.uniform[source] + GOLDEN_RATIO * counters[N_FAILED]) % 1.0
         draw_orientations(law, trials, n_angle, counters[N_PLACED], offset)
         particle = turn_and_inflate(supply, source, domain.clearance, trials, n_angle)

@@ -20,9 +20,11 @@ def make_grid(domain: Domain, smallest: float, largest: float, capacity: int) ->
     width, height = domain.x_max - domain.x_min, domain.y_max - domain.y_min
     level = np.empty((n_levels, 5))
     first = 0
+    # cells of fewer than one particle each would cost memory and time for nothing
+    smallest_cell = math.sqrt(width * height / capacity)
     for i in range(n_levels):
         radius = largest / LEVEL_RATIO**i
-        cell = 2.0 * radius
+        cell = max(2.0 * radius, smallest_cell)
         columns, rows = math.floor(width / cell) + 1, math.floor(height / cell) + 1
         level[i] = cell, radius, columns, rows, first
         first += columns * rows

@@ -75,5 +75,5 @@ def contact_from_tangent(placed, trials, trial, memory, a, b, row, width):
     tangent = memory.tangent
     return contact_with_polygons(
         placed.nodes, a0, na, tangent[row, width, 0], b0, nb, tangent[row, width, 1],
-        trials.nodes, trial.start, trial.n_nodes, 0,
+        trials.nodes, trial.start, trial.n_nodes,
     )  # fmt: skip

@@ -47,6 +47,8 @@ def draw_orientations(law, trials, n_angle, n_placed, uniform):
         target = (a + uniform) * step
         while b < n_bin - 1 and trials.weight[b + 1] <= target:
             b += 1
+        while trials.weight[b + 1] == trials.weight[b]:
+            b -= 1  # rounding has led past the last deficit
         within = (target - trials.weight[b]) / (trials.weight[b + 1] - trials.weight[b])
         within = min(max(within, 0.0), 1.0)
         u = law.cumulative[b] + within * (law.cumulative[b + 1] - law.cumulative[b])

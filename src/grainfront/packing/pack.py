@@ -10,11 +10,13 @@ from typing import NamedTuple
 import numpy as np
 
 from grainfront.geometry.moments import polygon_areas, radii_about_origin
-from grainfront.jit import compile_once
+from grainfront.jit import compiling
+from grainfront.packing import search_of
 from grainfront.packing.advance import (
     FINISHED,
     N_COUNTERS,
     N_PLACED,
+    N_TOO_LARGE,
     N_WAITING,
     WAITING_PLACES,
     advance,
@@ -71,8 +73,9 @@ def pack_hulls(
     n_angle = n_loc = 1 this is the plain advancing front method. Source: Du et al. (2023),
     sections 3 and 4.
     """
-    state = prepare(hulls, shape, size, orientation, domain, n_angle, n_loc, rng)
-    compile_s = compile_once("AFM" if state.memory is None else "OAFM", lambda: state.advance_to(0))
+    with compiling(f"{search_of(n_angle, n_loc)} search") as compilation:
+        state = prepare(hulls, shape, size, orientation, domain, n_angle, n_loc, rng)
+        state.advance_to(0)
     hull_area = polygon_areas(hulls.nodes, hulls.offsets)
     area = 0.0
     kernel_s = 0.0
@@ -88,7 +91,7 @@ def pack_hulls(
             progress(int(state.counters[N_PLACED]), area / domain.area)
         placed = int(state.counters[N_PLACED])
     return _packing(state, hull_area, aspect_ratio, shape, size, domain), RunTime(
-        kernel_s, compile_s
+        kernel_s, compilation.seconds
     )
 
 
@@ -142,7 +145,7 @@ def prepare(
         grid=make_grid(walls, circumradius.min(), circumradius.max(), n),
         domain=walls,
         supply=supply,
-        law=orientation,
+        law=orientation._replace(placed=np.zeros_like(orientation.placed)),
         trials=Trials(
             nodes=np.empty((nodes_of_trials, 2)),
             reach=np.empty((n_angle + 1, 4)),
@@ -150,7 +153,7 @@ def prepare(
             bin=np.empty(n_angle, dtype=np.int64),
             weight=np.empty(orientation.probability.size + 1),
         ),
-        memory=make_memory(n_angle, n_loc) if n_angle * n_loc > 1 else None,
+        memory=make_memory(n_angle, n_loc) if search_of(n_angle, n_loc) == "pruned" else None,
         waiting=np.empty(WAITING_PLACES, dtype=np.int64),
         counters=np.zeros(N_COUNTERS, dtype=np.int64),
         n_angle=n_angle,
@@ -204,5 +207,5 @@ def _packing(
         area=hull_area[shape[source]] * size[source] ** 2,
         circumradius=circumradius,
         shape=shape[source],
-        left_over=int(state.counters[N_WAITING]),
+        left_over=int(state.counters[N_WAITING] + state.counters[N_TOO_LARGE]),
     )

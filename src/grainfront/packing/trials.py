@@ -36,7 +36,7 @@ def contact_of_pair(placed, domain, trials, trial, a, b):
         disc = placed.disc
         i, j = common_tangent(nodes, a0, na, disc[a, 0], disc[a, 1], b0, nb, disc[b, 0], disc[b, 1])
         found, x, y, _, _, _, _ = contact_with_polygons(
-            nodes, a0, na, i, b0, nb, j, trials.nodes, trial.start, trial.n_nodes, 0
+            nodes, a0, na, i, b0, nb, j, trials.nodes, trial.start, trial.n_nodes
         )
         return found, x, y
     if a >= 0 or b >= 0:

@@ -30,7 +30,7 @@ def tangent_kernel(nodes, na, ax, ay, nb, bx, by):
 
 @kernel
 def contact_kernel(nodes, na, ia, nb, ib, trial):
-    return contact_with_polygons(nodes, 0, na, ia, na, nb, ib, trial, 0, trial.shape[0], 0)
+    return contact_with_polygons(nodes, 0, na, ia, na, nb, ib, trial, 0, trial.shape[0])
 
 
 @kernel
