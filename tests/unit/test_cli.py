@@ -195,8 +195,25 @@ def test_a_full_disk_is_told_in_one_sentence(folder, capsys, monkeypatch):
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr("os.replace", full)
-    assert "No space left" in refused(capsys, "pack", "s.yaml", "-o", "p.nc")
+    assert "No space left" in refused(capsys, "shapes", "s.yaml", "-o", "p.nc")
     assert os.listdir() == ["s.yaml"]
+
+
+def test_a_disk_that_fills_up_while_writing_is_told_in_one_sentence(folder):
+    Path("p.nc").write_text("earlier")
+    code = (
+        "import resource, signal, sys\n"
+        "from grainfront.cli import main\n"
+        "signal.signal(signal.SIGXFSZ, signal.SIG_IGN)\n"
+        "resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))\n"
+        "sys.exit(main(['shapes', 's.yaml', '-o', 'p.nc']))"
+    )
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert run.returncode == FAULTY_INPUT
+    assert run.stderr.startswith("grainfront: p.nc: cannot be written")
+    assert run.stderr.count("\n") == 1
+    assert Path("p.nc").read_text() == "earlier"
+    assert sorted(os.listdir()) == ["p.nc", "s.yaml"]
 
 
 @pytest.mark.parametrize("seed", ["-1", "x", "9223372036854775808"])

@@ -28,33 +28,37 @@ def write_dataset(
     """Write `arrays` under the names of `contract`, whole or not at all.
 
     The file holds nothing but its arguments and the package's version, so that equal arguments
-    give equal bytes. Errors: InputError naming the variable that breaks the contract.
+    give equal bytes. Errors: InputError naming the variable that breaks the contract; OSError
+    where the file cannot be written, as on a full disk.
     """
     attributes = {"grainfront_version": version("grainfront"), **attributes}
     sizes = _check_arrays(path, contract, arrays)
-    with replacing(path) as temporary:
-        with netCDF4.Dataset(temporary, "w", format="NETCDF4") as dataset:
-            for name in contract.dimensions:
-                if name in sizes:
-                    dataset.createDimension(name, sizes[name])
-            for name, variable in contract.variables.items():
-                if name in contract.data and name not in arrays:
-                    continue
-                # Without a fill value the bytes of a file are exactly its data.
-                target = dataset.createVariable(
-                    name, DTYPES[variable.type], variable.dimensions, fill_value=False
-                )
-                target.long_name = variable.long_name
-                if variable.units:
-                    target.units = variable.units.format(**attributes)
-                target.setncatts(variable.attributes)
-                target[...] = arrays.get(name, 0)
-            dataset.Conventions = CONVENTIONS
-            dataset.title = contract.title
-            for name in sorted(attributes):
-                dataset.setncattr(name, attributes[name])
-        with netCDF4.Dataset(temporary) as dataset:
-            _check_header(path, contract, header(dataset))
+    try:
+        with replacing(path) as temporary:
+            with netCDF4.Dataset(temporary, "w", format="NETCDF4") as dataset:
+                for name in contract.dimensions:
+                    if name in sizes:
+                        dataset.createDimension(name, sizes[name])
+                for name, variable in contract.variables.items():
+                    if name in contract.data and name not in arrays:
+                        continue
+                    # Without a fill value the bytes of a file are exactly its data.
+                    target = dataset.createVariable(
+                        name, DTYPES[variable.type], variable.dimensions, fill_value=False
+                    )
+                    target.long_name = variable.long_name
+                    if variable.units:
+                        target.units = variable.units.format(**attributes)
+                    target.setncatts(variable.attributes)
+                    target[...] = arrays.get(name, 0)
+                dataset.Conventions = CONVENTIONS
+                dataset.title = contract.title
+                for name in sorted(attributes):
+                    dataset.setncattr(name, attributes[name])
+            with netCDF4.Dataset(temporary) as dataset:
+                _check_header(path, contract, header(dataset))
+    except RuntimeError as error:  # so HDF5 tells of a full disk
+        raise OSError(f"{path}: cannot be written ({error}), perhaps for want of space") from error
 
 
 def read_dataset(path: Path, contract: Contract) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
