@@ -8,7 +8,7 @@ centre.
 
 from __future__ import annotations
 
-from grainfront.geometry.support import after, before, climb, cross
+from grainfront.geometry.support import after, at, before, climb, cross
 from grainfront.jit import inlined
 
 # Rounding turns an edge by about 1e-16; two edges that differ by less than this are parallel.
@@ -22,10 +22,10 @@ def clockwise_edge(nodes, a0, na, i, trial, t0, nt, j):
     """The edge of A ⊕ −N that leaves (vertex i of A, vertex j of N) clockwise: (ex, ey, i, j)."""
     m = before(i, na)
     n = before(j, nt)
-    ax = nodes[a0 + m, 0] - nodes[a0 + i, 0]
-    ay = nodes[a0 + m, 1] - nodes[a0 + i, 1]
-    bx = trial[t0 + j, 0] - trial[t0 + n, 0]
-    by = trial[t0 + j, 1] - trial[t0 + n, 1]
+    ax = at(nodes, a0 + m, 0) - at(nodes, a0 + i, 0)
+    ay = at(nodes, a0 + m, 1) - at(nodes, a0 + i, 1)
+    bx = at(trial, t0 + j, 0) - at(trial, t0 + n, 0)
+    by = at(trial, t0 + j, 1) - at(trial, t0 + n, 1)
     if cross(bx, by, ax, ay) > 0.0:
         return ax, ay, m, j
     return bx, by, i, n
@@ -36,10 +36,10 @@ def counterclockwise_edge(nodes, a0, na, i, trial, t0, nt, j):
     """The edge of A ⊕ −N that leaves (vertex i of A, vertex j of N) counter-clockwise."""
     m = after(i, na)
     n = after(j, nt)
-    ax = nodes[a0 + m, 0] - nodes[a0 + i, 0]
-    ay = nodes[a0 + m, 1] - nodes[a0 + i, 1]
-    bx = trial[t0 + j, 0] - trial[t0 + n, 0]
-    by = trial[t0 + j, 1] - trial[t0 + n, 1]
+    ax = at(nodes, a0 + m, 0) - at(nodes, a0 + i, 0)
+    ay = at(nodes, a0 + m, 1) - at(nodes, a0 + i, 1)
+    bx = at(trial, t0 + j, 0) - at(trial, t0 + n, 0)
+    by = at(trial, t0 + j, 1) - at(trial, t0 + n, 1)
     if cross(ax, ay, bx, by) > 0.0:
         return ax, ay, m, j
     return bx, by, i, n
@@ -51,10 +51,10 @@ def crossing(nodes, ia, ib, trial, ja, jb, eax, eay, ebx, eby):
 
     The same edges give the same bits, however they were found.
     """
-    pax = nodes[ia, 0] - trial[ja, 0] - eax
-    pay = nodes[ia, 1] - trial[ja, 1] - eay
-    wx = nodes[ib, 0] - trial[jb, 0] - ebx - pax
-    wy = nodes[ib, 1] - trial[jb, 1] - eby - pay
+    pax = at(nodes, ia, 0) - at(trial, ja, 0) - eax
+    pay = at(nodes, ia, 1) - at(trial, ja, 1) - eay
+    wx = at(nodes, ib, 0) - at(trial, jb, 0) - ebx - pax
+    wy = at(nodes, ib, 1) - at(trial, jb, 1) - eby - pay
     t = cross(wx, wy, ebx, eby) / cross(eax, eay, ebx, eby)
     t = min(max(t, 0.0), 1.0)
     return pax + t * eax, pay + t * eay
@@ -67,17 +67,17 @@ def contact_with_polygons(nodes, a0, na, ia, b0, nb, ib, trial, t0, nt):
     `ia`, `ib` are the vertices of their common tangent. Returns (found, x, y, ia, ja, ib, jb), with
     the vertices of A, N and of B, N where the edges end that cross.
     """
-    pax = nodes[a0 + ia, 0]
-    pay = nodes[a0 + ia, 1]
-    pbx = nodes[b0 + ib, 0]
-    pby = nodes[b0 + ib, 1]
+    pax = at(nodes, a0 + ia, 0)
+    pay = at(nodes, a0 + ia, 1)
+    pbx = at(nodes, b0 + ib, 0)
+    pby = at(nodes, b0 + ib, 1)
     ux = pbx - pax
     uy = pby - pay
     j = climb(trial, t0, nt, 0, uy, -ux)
-    pax -= trial[t0 + j, 0]
-    pay -= trial[t0 + j, 1]
-    pbx -= trial[t0 + j, 0]
-    pby -= trial[t0 + j, 1]
+    pax -= at(trial, t0 + j, 0)
+    pay -= at(trial, t0 + j, 1)
+    pbx -= at(trial, t0 + j, 0)
+    pby -= at(trial, t0 + j, 1)
     eax, eay, ia, ja = clockwise_edge(nodes, a0, na, ia, trial, t0, nt, j)
     ebx, eby, ib, jb = counterclockwise_edge(nodes, b0, nb, ib, trial, t0, nt, j)
     depth_a = -cross(ux, uy, eax, eay)
@@ -131,18 +131,18 @@ def contact_from_guess(nodes, a0, na, ia, ja, b0, nb, ib, jb, trial, t0, nt):
     ma, mb = ia, ib
     ia = after(ia, na)
     ib = before(ib, nb)
-    eax = nodes[a0 + ma, 0] - nodes[a0 + ia, 0]
-    eay = nodes[a0 + ma, 1] - nodes[a0 + ia, 1]
-    ebx = nodes[b0 + mb, 0] - nodes[b0 + ib, 0]
-    eby = nodes[b0 + mb, 1] - nodes[b0 + ib, 1]
+    eax = at(nodes, a0 + ma, 0) - at(nodes, a0 + ia, 0)
+    eay = at(nodes, a0 + ma, 1) - at(nodes, a0 + ia, 1)
+    ebx = at(nodes, b0 + mb, 0) - at(nodes, b0 + ib, 0)
+    eby = at(nodes, b0 + mb, 1) - at(nodes, b0 + ib, 1)
     ja = climb(trial, t0, nt, ja, eay, -eax)
     jb = climb(trial, t0, nt, jb, -eby, ebx)
     ka = ja
     kb = jb
-    pax = nodes[a0 + ia, 0] - trial[t0 + ja, 0]
-    pay = nodes[a0 + ia, 1] - trial[t0 + ja, 1]
-    pbx = nodes[b0 + ib, 0] - trial[t0 + jb, 0]
-    pby = nodes[b0 + ib, 1] - trial[t0 + jb, 1]
+    pax = at(nodes, a0 + ia, 0) - at(trial, t0 + ja, 0)
+    pay = at(nodes, a0 + ia, 1) - at(trial, t0 + ja, 1)
+    pbx = at(nodes, b0 + ib, 0) - at(trial, t0 + jb, 0)
+    pby = at(nodes, b0 + ib, 1) - at(trial, t0 + jb, 1)
     for _ in range(GUESS_MOVES):
         turn = cross(eax, eay, ebx, eby)
         if turn >= 0.0:
@@ -189,8 +189,8 @@ def contact_with_wall(nodes, a0, na, clockwise, nx, ny, level, trial, t0, nt):
     """
     i = climb(nodes, a0, na, 0, nx, ny)
     j = climb(trial, t0, nt, 0, -nx, -ny)
-    px = nodes[a0 + i, 0] - trial[t0 + j, 0]
-    py = nodes[a0 + i, 1] - trial[t0 + j, 1]
+    px = at(nodes, a0 + i, 0) - at(trial, t0 + j, 0)
+    py = at(nodes, a0 + i, 1) - at(trial, t0 + j, 1)
     above = nx * px + ny * py - level
     if above < 0.0:
         return False, 0.0, 0.0

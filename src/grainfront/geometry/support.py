@@ -6,7 +6,15 @@ strictly convex; its vertices are numbered from 0. `nodes` is float64 of shape (
 
 from __future__ import annotations
 
+import numpy as np
+
 from grainfront.jit import inlined
+
+
+@inlined
+def at(nodes, node, axis):
+    """A coordinate of a node; an unsigned index saves the test for one that counts from the end."""
+    return nodes[np.uint64(node), axis]
 
 
 @inlined
@@ -31,9 +39,9 @@ def before(i, count):
 def support(nodes, start, count, dx, dy):
     """Vertex that lies farthest in the direction (dx, dy); the first of several."""
     best = 0
-    reach = nodes[start, 0] * dx + nodes[start, 1] * dy
+    reach = at(nodes, start, 0) * dx + at(nodes, start, 1) * dy
     for i in range(1, count):
-        value = nodes[start + i, 0] * dx + nodes[start + i, 1] * dy
+        value = at(nodes, start + i, 0) * dx + at(nodes, start + i, 1) * dy
         if value > reach:
             reach = value
             best = i
@@ -43,18 +51,18 @@ def support(nodes, start, count, dx, dy):
 @inlined
 def climb(nodes, start, count, i, dx, dy):
     """Vertex that lies farthest in the direction (dx, dy), climbing from vertex i."""
-    reach = nodes[start + i, 0] * dx + nodes[start + i, 1] * dy
+    reach = at(nodes, start + i, 0) * dx + at(nodes, start + i, 1) * dy
     turned = False
     for _ in range(count):
         n = after(i, count)
-        value = nodes[start + n, 0] * dx + nodes[start + n, 1] * dy
+        value = at(nodes, start + n, 0) * dx + at(nodes, start + n, 1) * dy
         if value <= reach:
             break
         i, reach, turned = n, value, True
     if not turned:
         for _ in range(count):
             n = before(i, count)
-            value = nodes[start + n, 0] * dx + nodes[start + n, 1] * dy
+            value = at(nodes, start + n, 0) * dx + at(nodes, start + n, 1) * dy
             if value <= reach:
                 break
             i, reach = n, value
