@@ -10,6 +10,7 @@ from grainfront.errors import InputError
 from grainfront.geometry.boxes import bounding_boxes, close_pairs
 from grainfront.geometry.exact import convex_hull, hulls_disjoint, is_convex, is_simple
 from grainfront.geometry.outlines import interiors_meet
+from grainfront.geometry.rings import neighbours
 from grainfront.jit import kernel
 from grainfront.particles import Packing, Rectangle
 from grainfront.polygons import Polygons
@@ -101,8 +102,7 @@ def _check_polygons(polygons: Polygons) -> np.ndarray:
 
 def _edges_from_left(polygons: Polygons) -> np.ndarray:
     """For each polygon, its edges in the order of their left ends; edge i ends at node i."""
-    before = np.arange(-1, len(polygons.nodes) - 1)
-    before[polygons.offsets[:-1]] = polygons.offsets[1:] - 1
+    before, _ = neighbours(polygons.offsets)
     x = polygons.nodes[:, 0]
     owner = np.repeat(np.arange(polygons.count), polygons.node_counts)
     return np.lexsort((np.minimum(x, x[before]), owner)) - polygons.offsets[owner]

@@ -44,7 +44,7 @@ def cache_folder() -> Path:
     """The first writable folder for compiled kernels: GRAINFRONT_CACHE, the user's, a temporary."""
     user_cache = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
     folders = [Path(user_cache) / "grainfront", Path(tempfile.gettempdir()) / "grainfront"]
-    if "GRAINFRONT_CACHE" in os.environ:
+    if os.environ.get("GRAINFRONT_CACHE"):
         folders = [Path(os.environ["GRAINFRONT_CACHE"])]
     for folder in folders:
         try:

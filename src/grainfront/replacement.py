@@ -11,6 +11,7 @@ import numpy as np
 
 from grainfront.errors import InputError
 from grainfront.geometry.exact import draw_into_hulls
+from grainfront.geometry.rings import polygon_areas
 from grainfront.particles import Packing
 from grainfront.polygons import Polygons
 
@@ -60,7 +61,7 @@ def replace_hulls(
     return replace(
         packing,
         polygons=replaced,
-        area=_areas(relative, offsets),
+        area=polygon_areas(relative, offsets),
         circumradius=_largest(np.hypot(relative[:, 0], relative[:, 1]), offsets),
     )
 
@@ -99,13 +100,6 @@ def _check_same_hulls(packing: Packing, hulls: Polygons, expected: np.ndarray) -
             f"Particle {i} is not the hull of its shape {packing.shape[i]}, turned, scaled and "
             "moved: the packing is not made of these shapes."
         )
-
-
-def _areas(nodes: np.ndarray, offsets: np.ndarray) -> np.ndarray:
-    after = np.arange(1, len(nodes) + 1)
-    after[offsets[1:] - 1] = offsets[:-1]
-    x, y = nodes[:, 0], nodes[:, 1]
-    return 0.5 * np.add.reduceat(x * y[after] - x[after] * y, offsets[:-1])
 
 
 def _largest(values: np.ndarray, offsets: np.ndarray) -> np.ndarray:

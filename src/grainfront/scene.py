@@ -19,8 +19,6 @@ from grainfront.shapes.sources import ShapeSource
 
 # Descriptors whose law the choice of the shapes may follow.
 MATCHED = ("aspect_ratio", "circularity", "regularity")
-# A path of this beginning names a photograph that ships inside scikit-image, not a file.
-SKIMAGE = "skimage:"
 
 LAWS: dict[str, Callable[..., Law]] = {
     "uniform": laws.Uniform,
@@ -200,7 +198,7 @@ def _segmentation(data: dict[str, Any]) -> sources.Segmentation:
 
 def _found(name: str, folder: Path, key: str) -> str:
     """The path of a file named in the scene, checked to be there."""
-    if name.startswith(SKIMAGE):
+    if name.startswith(sources.SHIPPED):
         return name
     path = folder / name
     if not path.is_file():

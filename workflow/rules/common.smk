@@ -9,6 +9,7 @@ import yaml
 from grainfront import api, stages
 from grainfront.checked_yaml import parse_checked, read_text
 from grainfront.errors import InputError
+from grainfront.shapes.sources import SHIPPED
 
 
 wildcard_constraints:
@@ -49,7 +50,7 @@ def image_files(wildcards):
     """The files that the shapes of a scene come from; a photograph of scikit-image is none."""
     source = SCENES[wildcards.scene].shapes
     paths = [source.path] if hasattr(source, "path") else getattr(source, "paths", [])
-    return [path for path in paths if not path.startswith("skimage:")]
+    return [path for path in paths if not path.startswith(SHIPPED)]
 
 
 def has_images(scene):

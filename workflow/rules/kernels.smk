@@ -9,6 +9,8 @@ rule kernels:
         sources=stages.sources_digest("packing"),
     wildcard_constraints:
         search="exhaustive|pruned",
+    # the longest of the first jobs: the shapes are ready before it ends
+    priority: 1
     message:
         "kernels of the {wildcards.search} search: compiled, or found in the cache"
     script:

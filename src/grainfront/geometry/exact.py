@@ -46,7 +46,7 @@ def _filtered_orientation(ax, ay, bx, by, cx, cy):
     return UNDECIDED
 
 
-@njit  # not a `kernel`, which would release the lock that Python's integers need
+@njit  # not a `kernel`: numba warns of Python objects in one that works without the lock
 def _decide(ax, ay, bx, by, cx, cy):
     with objmode(sign="int64"):
         sign = _exact_orientation(ax, ay, bx, by, cx, cy)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from grainfront.geometry.moments import polygon_areas
+from grainfront.geometry.rings import polygon_areas
 
 OVERLAPPING, TOUCHING, APART = -1, 0, 1
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from grainfront.geometry.moments import place_polygon
+from grainfront.geometry.placing import place_polygon
 from grainfront.jit import inlined, kernel
 from grainfront.packing.exhaustive import choose_exhaustively
 from grainfront.packing.front import bury, front_length, move_gap

@@ -9,7 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from grainfront.geometry.moments import polygon_areas, radii_about_origin
+from grainfront.geometry.placing import radii_about_origin
+from grainfront.geometry.rings import polygon_areas
 from grainfront.jit import compiling
 from grainfront.packing import search_of
 from grainfront.packing.advance import (

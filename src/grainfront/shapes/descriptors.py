@@ -1,7 +1,7 @@
 """Shape descriptors of polygons, by exact algorithms.
 
 Terms after Du, Liu, Han & Deng (2023, doi 10.1016/j.jrmge.2022.03.009, section 2) and, for the
-regularity, Mollon & Zhao (2012, doi 10.1007/s10035-012-0380-5).
+regularity, Mollon & Zhao (2012, doi 10.1007/s10035-012-0356-x).
 """
 
 from __future__ import annotations

@@ -72,7 +72,7 @@ def _closed_steps(n: int, rng: np.random.Generator) -> np.ndarray:
 def fourier_grains(family: FourierGrains, rng: np.random.Generator) -> tuple[Polygons, int]:
     """Outlines from a Fourier spectrum of the radius, random phases; and how many were rejected.
 
-    After Mollon & Zhao (2012, doi 10.1007/s10035-012-0380-5): r(θ) = 1 + Σ A_n cos(nθ + δ_n) with
+    After Mollon & Zhao (2012, doi 10.1007/s10035-012-0356-x): r(θ) = 1 + Σ A_n cos(nθ + δ_n) with
     A_1 = 0, A_2 = d2, A_n = d3·(n/3)^−decay_3_8 for 3 ≤ n < 8, A_n = d8·(n/8)^−decay_8_up from 8
     on, and uniform phases δ_n. Outlines that cross themselves (radius not positive) are drawn
     again. Raises InputError where nearly all do.

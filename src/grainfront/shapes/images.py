@@ -15,12 +15,17 @@ from skimage import color, feature, filters, io, measure, morphology, segmentati
 from grainfront.errors import InputError
 from grainfront.polygons import Polygons
 from grainfront.shapes.outlines import trace_labels
-from grainfront.shapes.sources import BinaryMasks, LabelMasks, Photographs, Segmentation
+from grainfront.shapes.sources import (
+    SHIPPED,
+    BinaryMasks,
+    LabelMasks,
+    Photographs,
+    Segmentation,
+)
 
 # What tifffile logs of a damaged file is told by the error that follows.
 logging.getLogger("tifffile").addHandler(logging.NullHandler())
 
-SHIPPED = "skimage:"
 # The photographs and the silhouette inside scikit-image's own package, which need no download.
 SHIPPED_IMAGES = ("gravel", "coins", "horse")
 

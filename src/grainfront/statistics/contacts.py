@@ -8,6 +8,7 @@ import numpy as np
 import shapely
 
 from grainfront.geometry.boxes import bounding_boxes, close_pairs, mark_near_boxes
+from grainfront.geometry.rings import neighbours
 from grainfront.particles import Packing
 from grainfront.polygons import Polygons
 
@@ -64,7 +65,7 @@ def _pair_contacts(
     """
     nodes = polygons.nodes
     owner = np.repeat(np.arange(polygons.count), polygons.node_counts)
-    before, after = _neighbours(polygons)
+    before, after = neighbours(polygons.offsets)
     node, edge = _close_nodes_and_edges(polygons, boxes, after, owner, tolerance)
     if node.size == 0:
         return np.empty((0, 2), dtype=np.int64), np.empty((0, 2)), np.empty((0, 2))
@@ -109,15 +110,6 @@ def _close_nodes_and_edges(
     node, edge = points[node], edges[edge]
     apart = owner[node] != owner[edge]
     return node[apart], edge[apart]
-
-
-def _neighbours(polygons: Polygons) -> tuple[np.ndarray, np.ndarray]:
-    """Index of the node before and of the node after each node, round its polygon."""
-    index = np.arange(len(polygons.nodes))
-    before, after = index - 1, index + 1
-    before[polygons.offsets[:-1]] = polygons.offsets[1:] - 1
-    after[polygons.offsets[1:] - 1] = polygons.offsets[:-1]
-    return before, after
 
 
 def _dot(u: np.ndarray, v: np.ndarray) -> np.ndarray:

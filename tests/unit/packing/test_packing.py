@@ -9,7 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from grainfront.certificate import certify
-from grainfront.geometry.moments import place_polygon, polygon_areas
+from grainfront.geometry.placing import place_polygon
+from grainfront.geometry.rings import polygon_areas
 from grainfront.jit import kernel
 from grainfront.packing.advance import N_PLACED, WAITING_PLACES
 from grainfront.packing.front import front_length, member_at, position_of

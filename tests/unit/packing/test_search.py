@@ -7,7 +7,7 @@ from the same front until the first difference, of which there must be none.
 import numpy as np
 import pytest
 
-from grainfront.geometry.moments import polygon_areas
+from grainfront.geometry.rings import polygon_areas
 from grainfront.packing import PRUNED_FROM_N_LOC, search_of
 from grainfront.packing.advance import N_PLACED
 from grainfront.packing.orientations import orientation_law

@@ -1,10 +1,8 @@
-"""Moments and radii of polygons, and the placing of a standardised polygon."""
+"""Radii of standardised polygons, and their placing."""
 
 from __future__ import annotations
 
 import math
-
-import numpy as np
 
 from grainfront.geometry.support import after, cross
 from grainfront.jit import inlined, kernel
@@ -42,12 +40,3 @@ def radii_about_origin(nodes, offsets, circumradius, inradius):
             smallest = min(smallest, cross(ex, ey, -ax, -ay) / math.hypot(ex, ey))
         circumradius[p] = largest
         inradius[p] = smallest
-
-
-def polygon_areas(nodes: np.ndarray, offsets: np.ndarray) -> np.ndarray:
-    """Areas of ragged polygons, (n_polygons,), positive where counter-clockwise."""
-    following = np.arange(1, offsets[-1] + 1)
-    following[offsets[1:] - 1] = offsets[:-1]
-    x, y = nodes[: offsets[-1]].T
-    twice = x * y[following] - x[following] * y
-    return 0.5 * np.add.reduceat(twice, offsets[:-1]) if offsets.size > 1 else np.empty(0)
