@@ -131,7 +131,7 @@ def pack(
 def _require_resolved(scene: Scene) -> None:
     """Raise InputError where the rounding of coordinates would open the contacts of the grains."""
     from grainfront.packing.state import CLEARANCE_ULPS
-    from grainfront.statistics.contacts import CONTACT_TOLERANCE
+    from grainfront.particles import CONTACT_TOLERANCE
 
     domain = scene.domain
     farthest = max(map(abs, (domain.x_min, domain.y_min, domain.x_max, domain.y_max)))

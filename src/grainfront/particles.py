@@ -8,6 +8,13 @@ import numpy as np
 
 from grainfront.polygons import Polygons
 
+CONTACT_TOLERANCE = 1e-6
+"""Largest gap of a contact, in mean sizes.
+
+Far above the gaps that packing leaves on purpose against rounding (about 1e-14 of the domain), far
+below the distance of neighbours that do not touch.
+"""
+
 
 @dataclass(frozen=True)
 class Rectangle:

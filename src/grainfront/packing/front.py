@@ -26,7 +26,7 @@ def front_length(front):
 def member_at(front, position):
     """The member at a position along the front."""
     back = front.ends[0]
-    return front.member[position if position < back else position - back + front.ends[1]]
+    return front.member[np.uint64(position if position < back else position - back + front.ends[1])]
 
 
 @inlined

@@ -17,15 +17,16 @@ WIDTHS = 12
 class Memory(NamedTuple):
     """What one step has found out about the pairs around the gap; entries of older steps are void.
 
-    Pairs are indexed by the position of their first member from the window's start and by width.
+    A pair has one entry: WIDTHS for each position of its first member from the window's start, by
+    the number of members between. Entries are unsigned, which saves the test for negative indices.
     """
 
     step: np.ndarray  # (1,) number of the current step
-    known: np.ndarray  # (n_window, WIDTHS) step in which the tangent was found
-    tangent: np.ndarray  # (n_window, WIDTHS, 2) its vertices on A and B
-    guess: np.ndarray  # (n_window, WIDTHS, 4) vertices of A, N, B, N where the last trial touched
-    seen: np.ndarray  # (n_window, WIDTHS, n_angle) step in which the trial was looked at
-    scouted: np.ndarray  # (n_window, WIDTHS, 2) step in which a scout came by, and its pair
+    known: np.ndarray  # (n_entries,) step in which the tangent was found
+    tangent: np.ndarray  # (n_entries, 2) its vertices on A and B
+    guess: np.ndarray  # (n_entries, 4) vertices of A, N, B, N where the last trial touched
+    seen: np.ndarray  # (n_entries, n_angle) step in which the trial was looked at
+    scouted: np.ndarray  # (n_entries, 2) step in which a scout came by, and its pair
     height: np.ndarray  # (n_pairs,) of the scout, resolved from each pair
     covers: np.ndarray  # (n_pairs, 2) first and last pair under its place
     bound: np.ndarray  # (n_pairs,) below which no trial from the pair gets
@@ -34,15 +35,15 @@ class Memory(NamedTuple):
 
 def make_memory(n_angle: int, n_loc: int) -> Memory:
     """Memory for the local front of 2 n_loc members and the pairs that reach beyond it."""
-    n_window = 2 * n_loc + 2 * WIDTHS
     n_pairs = 2 * (n_loc + WIDTHS)
+    n_entries = n_pairs * WIDTHS
     return Memory(
         np.zeros(1, dtype=np.int64),
-        np.zeros((n_window, WIDTHS), dtype=np.int64),
-        np.empty((n_window, WIDTHS, 2), dtype=np.int64),
-        np.empty((n_window, WIDTHS, 4), dtype=np.int64),
-        np.zeros((n_window, WIDTHS, n_angle), dtype=np.int64),
-        np.zeros((n_window, WIDTHS, 2), dtype=np.int64),
+        np.zeros(n_entries, dtype=np.int64),
+        np.empty((n_entries, 2), dtype=np.int64),
+        np.empty((n_entries, 4), dtype=np.int64),
+        np.zeros((n_entries, n_angle), dtype=np.int64),
+        np.zeros((n_entries, 2), dtype=np.int64),
         np.empty(n_pairs),
         np.empty((n_pairs, 2), dtype=np.int64),
         np.empty(n_pairs),
@@ -51,29 +52,29 @@ def make_memory(n_angle: int, n_loc: int) -> Memory:
 
 
 @inlined
-def remember_tangent(placed, memory, a, b, row, width):
+def remember_tangent(placed, memory, a, b, entry):
     """Find the common tangent of the particles a and b, once a step."""
-    if memory.known[row, width] != memory.step[0]:
-        memory.known[row, width] = memory.step[0]
+    if memory.known[entry] != memory.step[0]:
+        memory.known[entry] = memory.step[0]
         a0, b0 = placed.offsets[a], placed.offsets[b]
         na, nb = placed.offsets[a + 1] - a0, placed.offsets[b + 1] - b0
         disc = placed.disc
         va, vb = common_tangent(
             placed.nodes, a0, na, disc[a, 0], disc[a, 1], b0, nb, disc[b, 0], disc[b, 1]
         )
-        memory.tangent[row, width, 0] = va
-        memory.tangent[row, width, 1] = vb
-        memory.guess[row, width, 0] = -1
+        memory.tangent[entry, 0] = va
+        memory.tangent[entry, 1] = vb
+        memory.guess[entry, 0] = -1
 
 
 @inlined
-def contact_from_tangent(placed, trials, trial, memory, a, b, row, width):
+def contact_from_tangent(placed, trials, trial, memory, a, b, entry):
     """`contact_with_polygons` of the particles a and b, from the tangent in memory."""
-    remember_tangent(placed, memory, a, b, row, width)
+    remember_tangent(placed, memory, a, b, entry)
     a0, b0 = placed.offsets[a], placed.offsets[b]
     na, nb = placed.offsets[a + 1] - a0, placed.offsets[b + 1] - b0
     tangent = memory.tangent
     return contact_with_polygons(
-        placed.nodes, a0, na, tangent[row, width, 0], b0, nb, tangent[row, width, 1],
+        placed.nodes, a0, na, tangent[entry, 0], b0, nb, tangent[entry, 1],
         trials.nodes, trial.start, trial.n_nodes,
     )  # fmt: skip

@@ -52,21 +52,20 @@ def send_scout(front, placed, domain, trials, scout, memory, base, begin, p):
     while True:
         row = i - base
         width = k - i - 1
+        entry = np.uint64(max(row, 0) * WIDTHS + width)
         a = member_at(front, i)
         b = member_at(front, k)
         if a < 0 or b < 0 or row < 0 or width >= WIDTHS:
             break
-        if memory.scouted[row, width, 0] == memory.step[0]:
-            same = memory.scouted[row, width, 1]
+        if memory.scouted[entry, 0] == memory.step[0]:
+            same = memory.scouted[entry, 1]
             memory.height[p] = memory.height[same]
             for end in range(2):
                 memory.covers[p, end] = memory.covers[same, end]
             return
-        memory.scouted[row, width, 0] = memory.step[0]
-        memory.scouted[row, width, 1] = p
-        found, x, y, _, _, _, _ = contact_from_tangent(
-            placed, trials, scout, memory, a, b, row, width
-        )
+        memory.scouted[entry, 0] = memory.step[0]
+        memory.scouted[entry, 1] = p
+        found, x, y, _, _, _, _ = contact_from_tangent(placed, trials, scout, memory, a, b, entry)
         if not found:
             break
         position = overlapped_neighbour(front, placed, domain, trials, scout, i, k, x, y)

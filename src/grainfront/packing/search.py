@@ -41,28 +41,28 @@ GUESS_FROM = 8
 
 
 @inlined
-def remembered_contact(placed, trials, trial, memory, a, b, row, width):
+def remembered_contact(placed, trials, trial, memory, a, b, entry):
     """As `contact_of_pair` for particles, guessing from the trial before at the same pair."""
-    remember_tangent(placed, memory, a, b, row, width)
+    remember_tangent(placed, memory, a, b, entry)
     guess = memory.guess
     found = False
     x = y = 0.0
-    if trial.n_nodes >= GUESS_FROM and guess[row, width, 0] >= 0:
+    if trial.n_nodes >= GUESS_FROM and guess[entry, 0] >= 0:
         a0, b0 = placed.offsets[a], placed.offsets[b]
         na, nb = placed.offsets[a + 1] - a0, placed.offsets[b + 1] - b0
         found, x, y, ia, ja, ib, jb = contact_from_guess(
-            placed.nodes, a0, na, guess[row, width, 0], guess[row, width, 1],
-            b0, nb, guess[row, width, 2], guess[row, width, 3],
+            placed.nodes, a0, na, guess[entry, 0], guess[entry, 1],
+            b0, nb, guess[entry, 2], guess[entry, 3],
             trials.nodes, trial.start, trial.n_nodes,
         )  # fmt: skip
     if not found:
         found, x, y, ia, ja, ib, jb = contact_from_tangent(
-            placed, trials, trial, memory, a, b, row, width
+            placed, trials, trial, memory, a, b, entry
         )
-    guess[row, width, 0] = ia
-    guess[row, width, 1] = ja
-    guess[row, width, 2] = ib
-    guess[row, width, 3] = jb
+    guess[entry, 0] = ia
+    guess[entry, 1] = ja
+    guess[entry, 2] = ib
+    guess[entry, 3] = jb
     return found, x, y
 
 
@@ -76,15 +76,16 @@ def resolve_below(front, placed, grid, domain, trials, trial, memory, base, i, k
     while True:
         row = i - base
         width = k - i - 1
+        entry = np.uint64(max(row, 0) * WIDTHS + width)
         a = member_at(front, i)
         b = member_at(front, k)
         in_memory = row >= 0 and width < WIDTHS
         if in_memory:
-            if memory.seen[row, width, trial.angle] == memory.step[0]:
+            if memory.seen[entry, np.uint64(trial.angle)] == memory.step[0]:
                 return BLOCKED, 0.0, 0.0, i, k
-            memory.seen[row, width, trial.angle] = memory.step[0]
+            memory.seen[entry, np.uint64(trial.angle)] = memory.step[0]
         if in_memory and a >= 0 and b >= 0:
-            found, x, y = remembered_contact(placed, trials, trial, memory, a, b, row, width)
+            found, x, y = remembered_contact(placed, trials, trial, memory, a, b, entry)
         else:
             found, x, y = contact_of_pair(placed, domain, trials, trial, a, b)
         if not found or y > ceiling + sinking:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from grainfront.geometry.contact import contact_with_polygons, contact_with_wall
 from grainfront.geometry.overlap import overlapping
+from grainfront.geometry.support import at
 from grainfront.geometry.tangent import common_tangent
 from grainfront.jit import inlined
 from grainfront.packing.front import front_length, member_at, position_of
@@ -58,13 +59,13 @@ def contact_of_pair(placed, domain, trials, trial, a, b):
 @inlined
 def overlaps_particle(placed, domain, trials, trial, q, x, y):
     """Whether the trial at (x, y) overlaps the placed particle q."""
-    qx = placed.disc[q, 0]
-    qy = placed.disc[q, 1]
+    qx = at(placed.disc, q, 0)
+    qy = at(placed.disc, q, 1)
     squared = (x - qx) * (x - qx) + (y - qy) * (y - qy)
-    far = trial.circumradius + placed.disc[q, 2]
+    far = trial.circumradius + at(placed.disc, q, 2)
     if squared >= far * far:
         return False
-    near = trial.inradius + placed.disc[q, 3] - 2.0 * domain.tolerance
+    near = trial.inradius + at(placed.disc, q, 3) - 2.0 * domain.tolerance
     if squared < near * near:
         return True
     start = placed.offsets[q]

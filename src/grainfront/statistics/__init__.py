@@ -1,6 +1,7 @@
 """Statistics of a packing: fractions, contacts, prescribed against placed, segregation."""
 
-from grainfront.statistics.contacts import CONTACT_TOLERANCE, Contacts, find_contacts
+from grainfront.particles import CONTACT_TOLERANCE
+from grainfront.statistics.contacts import Contacts, find_contacts
 from grainfront.statistics.distributions import (
     N_BIN,
     Distribution,

@@ -9,15 +9,8 @@ import shapely
 
 from grainfront.geometry.boxes import bounding_boxes, close_pairs, mark_near_boxes
 from grainfront.geometry.rings import neighbours
-from grainfront.particles import Packing
+from grainfront.particles import CONTACT_TOLERANCE, Packing
 from grainfront.polygons import Polygons
-
-CONTACT_TOLERANCE = 1e-6
-"""Largest gap of a contact, in mean sizes.
-
-Far above the gaps that packing leaves on purpose against rounding (about 1e-14 of the domain), far
-below the distance of neighbours that do not touch.
-"""
 
 
 @dataclass(frozen=True)
