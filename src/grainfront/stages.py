@@ -78,7 +78,9 @@ def shapes(*, scene: str, database: str) -> None:
 @stage
 def kernels(*, search: str) -> None:
     """Compile all that packings by a search need, once, before they run side by side."""
-    api.compile_kernels(search)
+    from grainfront.warm_up import compile_kernels
+
+    compile_kernels(search)
 
 
 @stage

@@ -1,0 +1,53 @@
+"""Compiling all kernels that packings by a search need, before these run side by side."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from grainfront import api
+from grainfront.jit import compiling
+from grainfront.laws import Constant, Uniform
+from grainfront.packing import PRUNED_FROM_N_LOC
+from grainfront.particles import Rectangle
+from grainfront.polygons import Polygons
+from grainfront.scene import PackingEffort, Scene
+from grainfront.shapes.database import ShapeDatabase
+from grainfront.shapes.sources import RegularPolygon
+
+
+def compile_kernels(search: str) -> None:
+    """Compile the kernels of a search, "exhaustive" or "pruned", down to the certificate."""
+    scene, database = _smallest_scene(PRUNED_FROM_N_LOC if search == "pruned" else 1)
+    packing, _ = api.pack(scene, database, seed=0)
+    with compiling("certificate"):
+        for one in (packing, api.replace(packing, database)):
+            api.certify(one)
+            api.measure(scene, database, one)
+
+
+def _smallest_scene(trials: int) -> tuple[Scene, ShapeDatabase]:
+    """A few dented squares: the least that every kernel has work with."""
+    dented = np.array([[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [0.0, 0.4], [-0.5, 0.5]])
+    on_hull = np.array([0, 1, 2, 4])
+    database = ShapeDatabase(
+        outlines=Polygons.of([dented]),
+        hulls=Polygons.of([dented[on_hull]]),
+        hull_nodes=on_hull,
+        descriptors={"aspect_ratio": np.ones(1), "hull_area": np.ones(1)},
+        counts={},
+    )
+    scene = Scene(
+        name="smallest",
+        text="",
+        length_unit="1",
+        seeds=(0,),
+        domain=Rectangle(0.0, 0.0, 4.0, 4.0),
+        shapes=RegularPolygon(4),
+        size=Constant(1.0),
+        matched=None,
+        orientation=Uniform(0.0, 180.0),
+        packing=PackingEffort(n_angle=trials, n_loc=trials, n_bin=2),
+        replacement=True,
+        outputs=(),
+    )
+    return scene, database
