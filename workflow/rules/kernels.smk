@@ -5,12 +5,12 @@
 rule kernels:
     output:
         compiled=touch("results/.{search}.compiled"),
-    params:
-        sources=stages.sources_digest("packing"),
     wildcard_constraints:
         search="exhaustive|pruned",
     # the longest of the first jobs: the shapes are ready before it ends
     priority: 1
+    params:
+        sources=stages.sources_digest("packing"),
     message:
         "kernels of the {wildcards.search} search: compiled, or found in the cache"
     script:
