@@ -30,12 +30,16 @@ def final_outline(mask):
     return clean_outline(simplify(smooth_outline(mask)))
 
 
+def described(outlines):
+    hulls = Polygons.of([outline[hull_indices(outline)] for outline in outlines])
+    return describe(Polygons.of(outlines), hulls)
+
+
 @pytest.mark.parametrize("aspect_ratio", [1.0, 1.2, 1.5, 2.0, 3.0])
 @pytest.mark.parametrize(("size", "count"), [(15, 200), (22, 80), (40, 40), (80, 15), (160, 5)])
 def test_ellipses_of_known_shape_are_found_without_bias(size, aspect_ratio, count):
     outlines = [final_outline(m) for m in random_poses(size, aspect_ratio, count, seed=1)]
-    hulls = Polygons.of([outline[hull_indices(outline)] for outline in outlines])
-    mean = {k: v.mean() for k, v in describe(Polygons.of(outlines), hulls).items()}
+    mean = {k: v.mean() for k, v in described(outlines).items()}
     perimeter = 2 * size * aspect_ratio * ellipe(1 - aspect_ratio**-2)
     assert mean["size"] == pytest.approx(size, rel=0.005)
     assert mean["aspect_ratio"] == pytest.approx(aspect_ratio, rel=0.005)
@@ -49,6 +53,39 @@ def test_the_raw_contour_does_have_the_bias():
         for c in map(raw_contour, random_poses(60, 1.5, 20, seed=2))
     ]
     assert np.mean(lengths) == pytest.approx(1.055 * 180 * ellipe(5 / 9), rel=0.005)
+
+
+def lobed_radius(angle):
+    """A grain of three lobes with hollows between, of mean radius 1."""
+    return 1 + 0.12 * np.cos(2 * angle + 0.3) + 0.28 * np.cos(3 * angle)
+
+
+def lobed_mask(radius, centre, turn):
+    n = int(1.4 * radius) + 4
+    y, x = np.mgrid[-n : n + 1, -n : n + 1]
+    x, y = x - centre[0], y - centre[1]
+    return np.hypot(x, y) < radius * lobed_radius(np.arctan2(y, x) - turn)
+
+
+# S is twice the mean radius here; the hollows fill a little where they are few pixels deep.
+@pytest.mark.parametrize(
+    ("radius", "count", "within"), [(15, 60, 0.15), (30, 30, 0.06), (60, 8, 0.04)]
+)
+def test_regularity_of_a_lobed_grain_is_free_of_the_staircase(radius, count, within):
+    angle = np.linspace(0.0, 2.0 * np.pi, 20001)[:-1]
+    exact = lobed_radius(angle) * np.array([np.cos(angle), np.sin(angle)])
+    known = {k: v[0] for k, v in described([exact.T]).items()}
+    rng = np.random.default_rng(5)
+    masks = [
+        lobed_mask(radius, rng.uniform(0, 1, 2), rng.uniform(0, 2 * np.pi)) for _ in range(count)
+    ]
+    found = described([final_outline(mask) for mask in masks])
+    raw = described(
+        [clean_outline(np.column_stack([c.real, c.imag])) for c in map(raw_contour, masks)]
+    )
+    assert found["perimeter"].mean() == pytest.approx(radius * known["perimeter"], rel=0.005)
+    assert np.median(found["regularity"]) == pytest.approx(known["regularity"], abs=within)
+    assert np.median(raw["regularity"]) < known["regularity"] - 0.4
 
 
 @pytest.mark.parametrize("aspect_ratio", [1.0, 2.0])
