@@ -41,9 +41,9 @@ class Photographs:
 
 @dataclass(frozen=True)
 class BinaryMasks:
-    """Masks in which every connected component of nonzero pixels is a grain; lengths in pixels.
+    """Masks in which connected pixels brighter than half grey are a grain; lengths in pixels.
 
-    `dark_grains`: the grains are the zero pixels. Specks and merged clumps as in `Segmentation`.
+    `dark_grains`: the grains are the darker pixels. Specks and merged clumps as in `Segmentation`.
     """
 
     paths: tuple[str, ...]
