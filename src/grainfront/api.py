@@ -15,7 +15,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from grainfront.errors import InputError
-from grainfront.scene import Scene, load_scene
+from grainfront.scene import Scene
+from grainfront.scene import load_scene as load_scene
 from grainfront.shapes.sources import BinaryMasks, LabelMasks, Photographs, ShapeSource
 
 if TYPE_CHECKING:
@@ -25,20 +26,6 @@ if TYPE_CHECKING:
     from grainfront.particles import Packing
     from grainfront.shapes.database import ShapeDatabase
     from grainfront.statistics import Contacts, OrientationRose, PackingStatistics
-
-__all__ = [
-    "InputError",
-    "build_shapes",
-    "certify",
-    "load_scene",
-    "measure",
-    "pack",
-    "progress_bar",
-    "replace",
-    "shape_coverage",
-    "write_packing",
-    "write_shapes",
-]
 
 ImageSource = Photographs | BinaryMasks | LabelMasks
 

@@ -120,7 +120,7 @@ PACKING = Contract(
         **SCENE,
         "domain": Attribute("string", "the domain as WKT, exact to the last bit"),
         "volume_fraction": Attribute("number", "area of the particles over area of the domain"),
-        "left_over": Attribute("integer", "particles drawn that found no place at the top"),
+        "left_over": Attribute("integer", "particles drawn that found no place"),
     },
 )
 
@@ -225,7 +225,7 @@ SEED_COUNTS = _of(
     ("seed",),
     type="int64",
     particles=("1", "particles placed"),
-    left_over=("1", "particles drawn that found no place at the top"),
+    left_over=("1", "particles drawn that found no place"),
     contact_pairs=("1", "pairs of particles that touch"),
     wall_contacts=("1", "pairs of a particle and a wall that touch"),
     pairs_tested=("1", "certificate: pairs of particles whose bounding boxes meet"),

@@ -14,7 +14,7 @@ import numpy as np
 
 from grainfront.geometry.contact import contact_from_guess
 from grainfront.jit import inlined
-from grainfront.packing.exhaustive import lower
+from grainfront.packing.exhaustive import NO_TRIAL, lower
 from grainfront.packing.front import front_length, member_at
 from grainfront.packing.memory import WIDTHS, contact_from_tangent, remember_tangent
 from grainfront.packing.scout import bound_pairs, shape_scout
@@ -127,25 +127,16 @@ def choose_lowest(front, placed, grid, domain, trials, memory, particle, n_angle
     scout = shape_scout(trials, n_angle * count, n_angle, inradius)
     bound_pairs(front, placed, domain, trials, scout, memory, base, first, last)
     sort_pairs(memory, last + 1 - first)
-    status = BLOCKED
-    best_x = best_y = np.inf
-    best_i = best_k = best_angle = -1
+    best = NO_TRIAL
     for n in range(last + 1 - first):
         p = memory.order[n]
-        if memory.bound[p] > best_y:
+        if memory.bound[p] > best[2]:
             break
         i = first + p
         for angle in range(n_angle):
             trial = Trial(angle * count, count, angle, circumradius, inradius)
             outcome, x, y, at_i, at_k = resolve_below(
-                front, placed, grid, domain, trials, trial, memory, base, i, i + 1, best_y
+                front, placed, grid, domain, trials, trial, memory, base, i, i + 1, best[2]
             )
-            if outcome == RESOLVED:
-                if status != RESOLVED or lower(
-                    y, at_i, at_k, angle, best_y, best_i, best_k, best_angle
-                ):
-                    status = RESOLVED
-                    best_x, best_y, best_i, best_k, best_angle = x, y, at_i, at_k, angle
-            elif outcome == TOO_HIGH and status == BLOCKED:
-                status = TOO_HIGH
-    return status, best_x, best_y, best_i, best_k, best_angle
+            best = lower(best, (outcome, x, y, at_i, at_k, angle))
+    return best
