@@ -22,8 +22,8 @@ def beyond_edge(ex, ey, wx, wy, tolerance):
 def overlapping(nodes, q0, nq, qx, qy, trial, t0, nt, x, y, tolerance):
     """Whether N centred at (x, y) penetrates Q, centred at (qx, qy), by more than `tolerance`.
 
-    The tolerance is to be far shorter than the edges (a packing's is some 1e-15 of the domain). Near
-    a corner between edges of its length, a penetration below it may count as an overlap.
+    The tolerance is to be far shorter than the edges (a packing's is some 1e-15 of the domain).
+    Near a corner between edges of its length, a penetration below it may count as an overlap.
     """
     dx = x - qx
     dy = y - qy
