@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from grainfront import laws
 from grainfront.checked_yaml import parse_checked, read_text
@@ -16,6 +16,8 @@ from grainfront.laws import Law
 from grainfront.particles import Rectangle
 from grainfront.shapes import sources
 from grainfront.shapes.sources import ShapeSource
+
+T = TypeVar("T")
 
 # Descriptors whose law the choice of the shapes may follow.
 MATCHED = ("aspect_ratio", "circularity", "regularity")
@@ -54,6 +56,32 @@ class PackingEffort:
 
 
 @dataclass(frozen=True)
+class Target:
+    """A volume fraction to be reached, and how far from it a packing may end."""
+
+    volume_fraction: float
+    tolerance: float
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """Packings at all pairs of these efforts, each for this many seeds (paper, Figs. 16, 18)."""
+
+    n_angle: tuple[int, ...]
+    n_loc: tuple[int, ...]
+    seeds: int
+
+
+@dataclass(frozen=True)
+class ErrorVsTime:
+    """Axes along which errors are measured against run time, with seeds and repeats of each."""
+
+    axes: tuple[str, ...]
+    seeds: int
+    repeats: int
+
+
+@dataclass(frozen=True)
 class Scene:
     """What one packing is made of.
 
@@ -73,6 +101,9 @@ class Scene:
     matched: tuple[str, Law] | None
     orientation: Law
     packing: PackingEffort
+    target: Target | None
+    sweep: Sweep | None
+    error_vs_time: ErrorVsTime | None
     replacement: bool
     outputs: tuple[str, ...]
 
@@ -112,6 +143,9 @@ def _scene(path: Path, text: str, data: dict[str, Any]) -> Scene:
         matched=_matched(data),
         orientation=_law("orientation", data),
         packing=PackingEffort(**data["packing"]),
+        target=_target(data),
+        sweep=_part(Sweep, "sweep", data),
+        error_vs_time=_part(ErrorVsTime, "error_vs_time", data),
         replacement=data["replacement"],
         outputs=tuple(data["outputs"]),
     )
@@ -157,6 +191,17 @@ def _matched(data: dict[str, Any]) -> tuple[str, Law] | None:
             "as a shape cannot follow two laws at once"
         )
     return (given[0], _law(given[0], data)) if given else None
+
+
+def _target(data: dict[str, Any]) -> Target | None:
+    if "target_volume_fraction" not in data:
+        return None
+    return Target(float(data["target_volume_fraction"]), float(data["target_tolerance"]))
+
+
+def _part(kind: Callable[..., T], key: str, data: dict[str, Any]) -> T | None:
+    """An optional part of the scene."""
+    return kind(**_frozen(data[key])) if key in data else None
 
 
 def _shapes(data: dict[str, Any], folder: Path) -> ShapeSource:

@@ -1,0 +1,23 @@
+"""The stages of the workflow, from files to files; each is one rule, called with keywords.
+
+Every result is written under a temporary name and renamed at the end. Faults of the input, and a
+certificate that does not hold, end the job with one sentence.
+"""
+
+from grainfront.stages.packing import kernels, packing, replacement, shapes, vtk
+from grainfront.stages.results import contacts, figures, photograph, statistics
+from grainfront.stages.sources import SOURCES, sources_digest
+
+__all__ = [
+    "SOURCES",
+    "contacts",
+    "figures",
+    "kernels",
+    "packing",
+    "photograph",
+    "replacement",
+    "shapes",
+    "sources_digest",
+    "statistics",
+    "vtk",
+]

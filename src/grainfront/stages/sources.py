@@ -1,0 +1,39 @@
+"""What of the package the results of each stage depend on: an edit of it asks for a new run."""
+
+from __future__ import annotations
+
+import hashlib
+from pathlib import Path
+
+_PACKAGE = Path(__file__).parents[1]
+_ALWAYS = ("__init__", "api", "checked_yaml", "errors", "particles", "polygons", "scene", "stages")
+_FILES = ("files.atomic", "files.contract", "files.dataset", "files.netcdf", "files.schema")
+_DATABASE = ("shapes.database", "shapes.descriptors")
+_LAWS = ("laws", "shapes.sources", *_ALWAYS)
+SOURCES = {
+    "shapes": ("draw", "shapes", "laws", *_FILES, *_ALWAYS),
+    "packing": ("draw", "geometry", "jit", "packing", *_DATABASE, *_FILES, *_LAWS),
+    "replacement": ("geometry", "jit", "replacement", *_DATABASE, *_FILES, *_LAWS),
+    "contacts": ("geometry", "jit", "statistics", *_FILES, *_LAWS),
+    "statistics": (
+        "certificate", "geometry", "jit", "statistics", "files.statistics", *_DATABASE,
+        *_FILES, *_LAWS,
+    ),
+    "vtk": ("files.vtk", *_FILES, *_LAWS),
+    "figures": (
+        "certificate", "figures", "geometry", "jit", "shapes", "statistics", "files.statistics",
+        *_FILES, *_LAWS,
+    ),
+}  # fmt: skip
+"""What of the package each stage's results depend on: modules, and packages with all of theirs."""
+
+
+def sources_digest(stage: str) -> str:
+    """Hexadecimal digest of the sources that a stage uses: an edit of them asks for a new run."""
+    digest = hashlib.sha256()
+    for module in SOURCES[stage]:
+        path = _PACKAGE.joinpath(*module.split("."))
+        for file in sorted(path.rglob("*.py")) if path.is_dir() else [path.with_suffix(".py")]:
+            digest.update(file.relative_to(_PACKAGE).as_posix().encode())
+            digest.update(file.read_bytes())
+    return digest.hexdigest()[:16]
