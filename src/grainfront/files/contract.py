@@ -1,4 +1,4 @@
-"""What each result dataset holds: the one place where its variables are named and explained.
+"""What result datasets hold: the one place where their variables are named and explained.
 
 The writers take their metadata from here, the JSON Schemas and CDL headers are made from here
 (`files.schema`), and both writers and readers check files against them.
@@ -284,5 +284,3 @@ STATISTICS = Contract(
     },
     attributes={**VERSION, **SCENE},
 )  # fmt: skip
-
-CONTRACTS = (SHAPES, PACKING, CONTACTS, STATISTICS)

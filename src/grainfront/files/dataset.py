@@ -15,7 +15,7 @@ from jsonschema.exceptions import best_match
 from grainfront.errors import InputError
 from grainfront.files.atomic import replacing
 from grainfront.files.contract import CONVENTIONS, Contract
-from grainfront.files.schema import json_schema
+from grainfront.files.header import json_schema
 
 DTYPES: dict[str, Any] = {"int": np.int32, "int64": np.int64, "double": np.float64}
 Path = str | os.PathLike[str]

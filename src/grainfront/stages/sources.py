@@ -7,7 +7,7 @@ from pathlib import Path
 
 _PACKAGE = Path(__file__).parents[1]
 _ALWAYS = ("__init__", "api", "checked_yaml", "errors", "particles", "polygons", "scene", "stages")
-_FILES = ("files.atomic", "files.contract", "files.dataset", "files.netcdf", "files.schema")
+_FILES = ("files.atomic", "files.contract", "files.dataset", "files.header", "files.netcdf")
 _DATABASE = ("shapes.database", "shapes.descriptors")
 _LAWS = ("laws", "shapes.sources", *_ALWAYS)
 SOURCES = {

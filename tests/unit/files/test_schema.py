@@ -12,10 +12,11 @@ import netCDF4
 import numpy as np
 import pytest
 
-from grainfront.files.contract import CONTRACTS, PACKING
+from grainfront.files.contract import PACKING
 from grainfront.files.dataset import header
+from grainfront.files.header import cdl, json_schema
 from grainfront.files.netcdf import write_packing
-from grainfront.files.schema import cdl, documents, drifted, json_schema
+from grainfront.files.schema import CONTRACTS, documents, drifted
 
 sys.path.insert(0, str(Path(__file__).parent))
 import synthetic
