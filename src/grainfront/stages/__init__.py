@@ -7,10 +7,13 @@ certificate that does not hold, end the job with one sentence.
 from grainfront.stages.packing import kernels, packing, replacement, shapes, vtk
 from grainfront.stages.results import contacts, figures, photograph, statistics
 from grainfront.stages.sources import SOURCES, sources_digest
+from grainfront.stages.sweep import contour, contour_picture, sweep
 
 __all__ = [
     "SOURCES",
     "contacts",
+    "contour",
+    "contour_picture",
     "figures",
     "kernels",
     "packing",
@@ -19,5 +22,6 @@ __all__ = [
     "shapes",
     "sources_digest",
     "statistics",
+    "sweep",
     "vtk",
 ]

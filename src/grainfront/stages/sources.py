@@ -19,6 +19,11 @@ SOURCES = {
         "certificate", "geometry", "jit", "statistics", "files.statistics", *_DATABASE,
         *_FILES, *_LAWS,
     ),
+    "sweep": (
+        "draw", "geometry", "jit", "packing", "statistics", "studies.sweep", "files.contour",
+        *_DATABASE, *_FILES, *_LAWS,
+    ),
+    "contour_picture": ("figures", "files.contour", *_FILES, *_LAWS),
     "vtk": ("files.vtk", *_FILES, *_LAWS),
     "figures": (
         "certificate", "figures", "geometry", "jit", "shapes", "statistics", "files.statistics",
