@@ -53,8 +53,11 @@ TIES = {"__init__", "api", "cli", "stages", "studies", "warm_up"}
 LIBRARIES = {
     "numpy": ("",),
     "numba": ("jit", "geometry", "packing"),
-    "scipy": ("shapes", "laws"),
-    "shapely": ("polygons", "geometry.boxes", "shapes", "statistics", "files.netcdf"),
+    "scipy": ("shapes", "laws", "studies.error_vs_time"),
+    "shapely": (
+        "polygons", "geometry.boxes", "shapes", "statistics", "files.netcdf",
+        "studies.error_vs_time",
+    ),
     "skimage": ("shapes.images", "shapes.outlines"),
     "netCDF4": ("files",),
     "xarray": ("files",),

@@ -4,6 +4,7 @@ Every result is written under a temporary name and renamed at the end. Faults of
 certificate that does not hold, end the job with one sentence.
 """
 
+from grainfront.stages.error_vs_time import error_vs_time, error_vs_time_picture
 from grainfront.stages.packing import kernels, packing, replacement, shapes, vtk
 from grainfront.stages.results import contacts, figures, photograph, statistics
 from grainfront.stages.sources import SOURCES, sources_digest
@@ -14,6 +15,8 @@ __all__ = [
     "contacts",
     "contour",
     "contour_picture",
+    "error_vs_time",
+    "error_vs_time_picture",
     "figures",
     "kernels",
     "packing",

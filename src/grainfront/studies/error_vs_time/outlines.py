@@ -99,19 +99,20 @@ def _simplified(outlines: Polygons, tolerance: float) -> Polygons:
 
 def _errors_of_shape(databases: Sequence[ShapeDatabase]) -> dict[str, np.ndarray]:
     """Mean relative errors, each of shape (n_points,), against the first database."""
-    values = [_values(one) for one in databases]
+    values = [_values(databases[0], np.ones(databases[0].count))]
+    values += [_values(one, one.descriptors["size"]) for one in databases[1:]]
     return {
         f"{name}_error": np.array([np.mean(np.abs(v[name] / values[0][name] - 1)) for v in values])
         for name in values[0]
     }
 
 
-def _values(database: ShapeDatabase) -> dict[str, np.ndarray]:
-    """Area and perimeter in the units of the reference, and the descriptors without unit."""
+def _values(database: ShapeDatabase, size: np.ndarray) -> dict[str, np.ndarray]:
+    """Area and perimeter in sizes of the reference, and the descriptors, which have no unit."""
     found = database.descriptors
     return {
-        "area": found["area"] * found["size"] ** 2,
-        "perimeter": found["perimeter"] * found["size"],
+        "area": found["area"] * size**2,
+        "perimeter": found["perimeter"] * size,
         **{name: found[name] for name in DESCRIPTORS},
     }
 

@@ -41,12 +41,13 @@ def pareto_front(seconds: np.ndarray, error: np.ndarray) -> np.ndarray:
     time, error = over_points(seconds), over_points(error)
     no_worse = (time[:, None] <= time) & (error[:, None] <= error)
     better = (time[:, None] < time) | (error[:, None] < error)
-    return (~(no_worse & better).any(axis=0)).astype(np.int64)
+    beaten = np.any(no_worse & better, axis=0)
+    return np.where(beaten, np.int64(0), np.int64(1))
 
 
 def over_points(values: np.ndarray) -> np.ndarray:
     """Medians over seeds and repeats, shape (n_points,)."""
-    return np.asarray(np.median(values.reshape(len(values), -1), axis=1))
+    return np.array([np.median(of_point) for of_point in values])
 
 
 def joined(first: AxisRecord, second: AxisRecord) -> AxisRecord:
