@@ -55,7 +55,11 @@ LIBRARIES = {
     "numba": ("jit", "geometry", "packing"),
     "scipy": ("shapes", "laws", "studies.error_vs_time"),
     "shapely": (
-        "polygons", "geometry.boxes", "shapes", "statistics", "files.netcdf",
+        "polygons",
+        "geometry.boxes",
+        "shapes",
+        "statistics",
+        "files.netcdf",
         "studies.error_vs_time",
     ),
     "skimage": ("shapes.images", "shapes.outlines"),
