@@ -34,7 +34,9 @@ def volume_fraction_bulk(packing: Packing) -> float:
     left, bottom, right, top = bounding_boxes(polygons.nodes, polygons.offsets).T
     inside = (left >= x_min) & (bottom >= y_min) & (right <= x_max) & (top <= y_max)
     outside = (left >= x_max) | (bottom >= y_max) | (right <= x_min) | (top <= y_min)
-    straddling = Polygons.of(polygons.polygon(i) for i in np.flatnonzero(~inside & ~outside))
+    straddling = Polygons.of(
+        polygons.polygon(i) for i in np.flatnonzero(~inside & ~outside).tolist()
+    )
     clipped = shapely.area(
         shapely.clip_by_rect(straddling.to_shapely(), x_min, y_min, x_max, y_max)
     )
