@@ -23,6 +23,7 @@ def record(axis):
     if axis == "effort":
         found |= {"n_angle": np.array([1, 1, 24, 24]), "n_loc": np.array([1, 20, 1, 20])}
         found["pareto"] = np.array([1, 0, 1, 1])
+        found["kernel_s"] = np.geomspace(0.01, 1.0, 4)[:, None, None] * np.ones((4, 3, 2))
     if axis == "outlines":
         found |= {"tolerance": np.array([0.0, 0.064, 0.016, 0.004])}
         found |= {"vertices": np.array([500.0, 9.0, 20.0, 42.0])}
@@ -74,11 +75,14 @@ def test_the_exponents_are_shown():
 
 def test_outlines_that_cannot_be_simplified_say_so():
     found = {name: array[:1] for name, array in record("outlines").items()}
-    assert "nothing to simplify" in labels(figures.error_vs_time("outlines", found))[0]
+    figure = figures.error_vs_time("outlines", found)
+    assert "nothing to simplify" in figure.texts[0].get_text()
 
 
-def test_drawing_without_a_law_of_a_descriptor_is_drawn(tmp_path):
-    found = record("drawing") | {"descriptor_l2_error": np.full((4, 3), np.nan)}
+@pytest.mark.parametrize("error", [np.nan, 0.0])
+def test_drawing_leaves_out_a_law_that_is_not_there_or_cannot_be_missed(tmp_path, error):
+    found = record("drawing") | {"descriptor_l2_error": np.full((4, 3), error)}
     figure = figures.error_vs_time("drawing", found)
-    assert "descriptor" not in [t.get_text() for t in figure.axes[0].get_legend().get_texts()]
+    assert figure.axes[0].get_ylim()[0] > 1e-4
+    assert "descriptor" not in [t.get_text() for t in figure.legends[0].get_texts()]
     figures.save_png(figure, tmp_path / "drawing.png")

@@ -19,6 +19,9 @@ from grainfront.figures.error_vs_time.marks import (
 from grainfront.figures.style import ACCENT, BRANCH, INK, PRESCRIBED, panel_letter
 
 LAWS = {"size": ("o", 0.94), "descriptor": ("s", 1.0), "orientation": ("^", 1.06)}
+# A law of a single value leaves no error but rounding, and no packing has this many particles.
+NO_ERROR = 1e-9
+CONTROLLED = "deficit-controlled"
 WITHOUT_BINS = {"independent": INK, "stratified": ACCENT}
 
 
@@ -29,9 +32,12 @@ def draw_drawing(figure: Figure, found: Quantities) -> None:
     panel_letter(left, "a", f"{int(medians(found['particles'])[0]):,} values drawn")
     panel_letter(right, "b", "orientations placed")
     _draw_alone(left, found)
+    figure.legend(
+        title="deficit-controlled, " + _milliseconds(found, found["method"] == CONTROLLED),
+        loc="outside lower left", ncols=len(LAWS),
+    )  # fmt: skip
     _draw_placed(right, found)
     for axes in (left, right):
-        axes.set_yscale("log")
         percent(axes)
         bins = np.unique(found["n_bin"][found["n_bin"] > 0])
         plain_numbers(axes, bins)
@@ -41,16 +47,15 @@ def draw_drawing(figure: Figure, found: Quantities) -> None:
 
 
 def _draw_alone(axes: Axes, found: Quantities) -> None:
-    with_bins = found["method"] == "deficit-controlled"
-    for law, (marker, shift) in LAWS.items():
-        if np.isnan(found[f"{law}_l2_error"]).all():
-            continue
+    with_bins = found["method"] == CONTROLLED
+    laws = [law for law in LAWS if (found[f"{law}_l2_error"] > NO_ERROR).any()]
+    for law in laws:
+        marker, shift = LAWS[law]
         marks(axes, found["n_bin"][with_bins] * shift, found[f"{law}_l2_error"][with_bins], BRANCH,
               marker=marker, label=law)  # fmt: skip
-    axes.legend(title="deficit-controlled, " + _milliseconds(found, with_bins), loc="lower left")
     for method, colour in WITHOUT_BINS.items():
         of = found["method"] == method
-        errors = np.array([found[f"{law}_l2_error"][of] for law in LAWS])
+        errors = np.array([found[f"{law}_l2_error"][of] for law in laws])
         axes.axhspan(np.nanmin(errors), np.nanmax(errors), color=colour, alpha=0.2, linewidth=0)
         middle = float(np.nanmedian(errors))
         axes.axhline(middle, color=colour, linewidth=1)
@@ -71,4 +76,4 @@ def _draw_placed(axes: Axes, found: Quantities) -> None:
               label=f"n_angle = {n_angle}, {np.median(found['cpu_s'][of]):.2g} s")  # fmt: skip
     ring(axes, found["n_bin"][placed], found["orientation_l2_error"][placed],
          found["pareto"][placed])  # fmt: skip
-    axes.legend(loc="lower left")
+    axes.legend(loc="upper right")

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patheffects import withStroke
-from matplotlib.ticker import FuncFormatter, LogFormatterMathtext
+from matplotlib.ticker import FuncFormatter, LogFormatterMathtext, LogLocator, NullFormatter
 
 from grainfront.figures.style import INK, MM, WIDTH
 
@@ -59,7 +59,10 @@ def say(axes: Axes, x: float, y: float, text: str, **style: Any) -> None:
 
 
 def percent(axes: Axes) -> None:
-    """Show the shares of the y axis in percent."""
+    """A logarithmic y axis that shows shares in percent."""
+    axes.set_yscale("log")
+    axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axes.yaxis.set_minor_formatter(NullFormatter())
     axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{100 * value:g} %"))
 
 

@@ -16,7 +16,7 @@ from grainfront.figures.error_vs_time.marks import (
     ring,
     say,
 )
-from grainfront.figures.style import ACCENT, BRANCH, PLACED, PRESCRIBED, panel_letter
+from grainfront.figures.style import ACCENT, BRANCH, MM, PLACED, PRESCRIBED, panel_letter
 
 COLOURS = {
     "area": PLACED,
@@ -29,9 +29,12 @@ COLOURS = {
 
 def draw_outlines(figure: Figure, found: Quantities) -> None:
     """Errors over the vertices; the errors that decide over the kernel time."""
+    coarser = found["tolerance"] > 0.0
+    if not coarser.any():
+        _say_nothing_to_simplify(figure, found)
+        return
     figure.set_size_inches(*TWO_PANELS)
     left, right = figure.subplots(1, 2, sharey=True)
-    coarser = found["tolerance"] > 0.0
     panel_letter(left, "a", f"against outlines of {found['vertices'][0]:.0f} vertices")
     panel_letter(right, "b", "what they cost")
     for axes in (left, right):
@@ -39,16 +42,20 @@ def draw_outlines(figure: Figure, found: Quantities) -> None:
     left.set_xlabel("vertices of an outline, on average")
     right.set_xlabel("kernel time (s)")
     left.set_ylabel("relative error; absolute error of the fraction")
-    if not coarser.any():
-        left.text(0.5, 0.5, "nothing to simplify:\nthese outlines have no more\nvertices than "
-                  "they need", transform=left.transAxes, ha="center")  # fmt: skip
-        return
     kept = {name: value[coarser] for name, value in found.items()}
     for name, colour in COLOURS.items():
         _curve(left, kept["vertices"], kept[f"{name}_error"], colour, name.replace("_", " "))
     _draw_fraction(left, kept["vertices"], kept)
     _draw_floor(left, found)
     _draw_costs(right, kept)
+
+
+def _say_nothing_to_simplify(figure: Figure, found: Quantities) -> None:
+    figure.set_size_inches(120 * MM, 20 * MM)
+    figure.text(
+        0.5, 0.5, f"Outlines of {found['vertices'][0]:.3g} vertices: there is nothing to simplify.",
+        ha="center", va="center",
+    )  # fmt: skip
 
 
 def _curve(axes: Axes, x: np.ndarray, y: np.ndarray, colour: str, name: str) -> None:
