@@ -12,6 +12,8 @@ include: "workflow/rules/replacement.smk"
 include: "workflow/rules/statistics.smk"
 include: "workflow/rules/vtk.smk"
 include: "workflow/rules/figures.smk"
+include: "workflow/rules/sweep.smk"
+include: "workflow/rules/error_vs_time.smk"
 
 
 # Everything that the scenes name.

@@ -6,7 +6,9 @@ import argparse
 import json
 import math
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import asdict
 from pathlib import Path
 
 from grainfront import api
@@ -76,6 +78,24 @@ def _parser() -> argparse.ArgumentParser:
         "-o", "--output", required=True, metavar="shapes.nc", help="where the database goes"
     )
     shapes.set_defaults(run=_shapes)
+
+    effort = commands.add_parser(
+        "effort",
+        help="find the least effort that reaches a volume fraction",
+        description="Recommend the cheapest n_angle and n_loc that reach a volume fraction in a "
+        "scene, and tell what volume fraction and time to expect, from short pilot packings. "
+        "n_angle up to 48 and n_loc up to 40 are considered, or up to the scene's own where these "
+        "are larger. Where the scene replaces hulls, the volume fraction is that of the outlines.",
+    )
+    effort.add_argument("scene", metavar="SCENE.yaml", help="the scene")
+    effort.add_argument(
+        "--target",
+        type=_fraction,
+        metavar="FRACTION",
+        help="the volume fraction; target_volume_fraction of the scene if not given",
+    )
+    effort.add_argument("--json", action="store_true", help="print the result as one JSON object")
+    effort.set_defaults(run=_effort)
     return parser
 
 
@@ -90,6 +110,18 @@ def _seed(text: str) -> int:
             f"is {text:.30}, but must be a whole number from 0 to {largest}"
         )
     return seed
+
+
+def _fraction(text: str) -> float:
+    try:
+        fraction = float(text)
+    except ValueError:
+        fraction = math.nan
+    if not 0.0 < fraction < 1.0:
+        raise argparse.ArgumentTypeError(
+            f"is {text:.30}, but must be a number between 0 and 1, neither of them included"
+        )
+    return fraction
 
 
 def _pack(options: argparse.Namespace) -> None:
@@ -130,6 +162,48 @@ def _shapes(options: argparse.Namespace) -> None:
     for what, count in database.counts.items():
         print(f"{what.replace('_', ' ')}: {count}")
     print(f"{database.count} shapes written to {options.output}")
+
+
+def _effort(options: argparse.Namespace) -> None:
+    # not imported above, as compiled code comes with it
+    from grainfront.studies import effort
+
+    scene = api.load_scene(options.scene)
+    target = options.target
+    if target is None:
+        if scene.target is None:
+            raise InputError(
+                f"{options.scene}: has no target_volume_fraction and --target is not given, but "
+                "one of them must be"
+            )
+        target = scene.target.volume_fraction
+    database = api.build_shapes(scene)
+    with _pilots_bar() as progress:
+        found = effort.recommend(scene, database, target, progress)
+    if options.json:
+        print(json.dumps(asdict(found)))
+        return
+    of_outlines = " of the outlines" if scene.replacement else ""
+    print(
+        f"n_angle {found.n_angle} and n_loc {found.n_loc} are the cheapest that reach {target:g}: "
+        f"expect a volume fraction{of_outlines} of {found.volume_fraction:.4f} ± "
+        f"{found.spread:.4f} (two standard deviations) and some {found.particles:,} particles, "
+        f"packed in {found.kernel_s:.2g} s of one core.\n"
+        f"{found.pilots} pilot packings took {found.pilot_s:.1f} s, compiling the kernels or "
+        f"reading them from the cache {found.compile_s:.1f} s; they are in the cache now."
+    )
+
+
+@contextmanager
+def _pilots_bar() -> Iterator[Callable[[int], None] | None]:
+    """A bar of pilots and the particles in them, on a terminal only."""
+    if not sys.stderr.isatty():
+        yield None
+        return
+    from tqdm import tqdm
+
+    with tqdm(desc="pilots", unit=" particles", delay=api.SECONDS_BEFORE_BAR) as bar:
+        yield lambda particles: bar.update(particles)
 
 
 def _require_place(output: str, source: str) -> None:

@@ -48,13 +48,20 @@ MAY_IMPORT_TYPES = {"files": ("shapes.database", "statistics", "certificate")}
 # And of these only for the type checker, under `if TYPE_CHECKING`.
 MAY_NAME_TYPES = {"figures": ("shapes.database", "statistics", "certificate")}
 # They tie the stages together, and nothing else may import them.
-TIES = {"__init__", "api", "cli", "stages", "warm_up"}
+TIES = {"__init__", "api", "cli", "stages", "studies", "warm_up"}
 
 LIBRARIES = {
     "numpy": ("",),
     "numba": ("jit", "geometry", "packing"),
-    "scipy": ("shapes", "laws"),
-    "shapely": ("polygons", "geometry.boxes", "shapes", "statistics", "files.netcdf"),
+    "scipy": ("shapes", "laws", "studies.error_vs_time"),
+    "shapely": (
+        "polygons",
+        "geometry.boxes",
+        "shapes",
+        "statistics",
+        "files.netcdf",
+        "studies.error_vs_time",
+    ),
     "skimage": ("shapes.images", "shapes.outlines"),
     "netCDF4": ("files",),
     "xarray": ("files",),

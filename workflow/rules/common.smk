@@ -28,15 +28,15 @@ def scene_file(scene):
     return f"config/scenes/{scene}.yaml"
 
 
-def read_scenes():
-    """The scenes that the configuration names; InputError where a file is at fault."""
+def read_config():
+    """The configuration, checked; InputError where it is at fault."""
     schema = json.loads(read_text(Path(workflow.basedir) / "config/config.schema.json"))
-    found = parse_checked(yaml.safe_dump(dict(config)), schema, "config/config.yaml")
-    return {name: api.load_scene(scene_file(name)) for name in found["scenes"]}
+    return parse_checked(yaml.safe_dump(dict(config)), schema, "config/config.yaml")
 
 
 try:
-    SCENES = read_scenes()
+    CONFIG = read_config()
+    SCENES = {name: api.load_scene(scene_file(name)) for name in CONFIG["scenes"]}
 except InputError as error:
     sys.exit(api.sentence(error))
 
@@ -67,8 +67,11 @@ def results_of(scene):
             yield f"{folder}/{seed}/contacts{kind}.nc"
             if "vtk" in scene.outputs:
                 yield f"{folder}/{seed}/{KINDS[kind]}.vtp"
+    if scene.sweep:
+        yield from (f"{folder}/contour.nc", f"{folder}/contour_timing.nc")
     if "figures" in scene.outputs:
         pictures = PICTURES + ["photograph"] * has_images(scene)
+        pictures += ["contour"] * bool(scene.sweep)
         yield from (f"{folder}/figures/{picture}.png" for picture in pictures)
 
 

@@ -4,10 +4,21 @@ Nothing is computed here but positions on the paper; numbers come from `statisti
 """
 
 from grainfront.figures.contacts import contacts
+from grainfront.figures.contour import contour
+from grainfront.figures.error_vs_time import error_vs_time
 from grainfront.figures.laws import laws
 from grainfront.figures.packing import packing
 from grainfront.figures.photograph import photograph
 from grainfront.figures.rose import rose
 from grainfront.figures.style import save_png
 
-__all__ = ["contacts", "laws", "packing", "photograph", "rose", "save_png"]
+__all__ = [
+    "contacts",
+    "contour",
+    "error_vs_time",
+    "laws",
+    "packing",
+    "photograph",
+    "rose",
+    "save_png",
+]

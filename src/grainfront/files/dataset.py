@@ -17,7 +17,11 @@ from grainfront.files.atomic import replacing
 from grainfront.files.contract import CONVENTIONS, Contract
 from grainfront.files.header import json_schema
 
-DTYPES: dict[str, Any] = {"int": np.int32, "int64": np.int64, "double": np.float64}
+DTYPES: dict[str, Any] = {
+    "int": np.int32, "int64": np.int64, "double": np.float64, "string": str
+}  # fmt: skip
+# In memory strings are objects, as netCDF4 reads them.
+ARRAY_DTYPES = DTYPES | {"string": np.dtype(object)}
 Path = str | os.PathLike[str]
 Arrays = Mapping[str, np.ndarray]
 
@@ -122,7 +126,7 @@ def _check_arrays(path: Path, contract: Contract, arrays: Arrays) -> dict[str, i
     sizes: dict[str, int] = {}
     for name, array in arrays.items():
         variable = contract.variables[name]
-        if array.dtype != DTYPES[variable.type]:
+        if array.dtype != ARRAY_DTYPES[variable.type]:
             raise InputError(f"{path}: {name} is {array.dtype}, but must be {variable.type}")
         if array.ndim != len(variable.dimensions):
             raise InputError(
@@ -135,6 +139,6 @@ def _check_arrays(path: Path, contract: Contract, arrays: Arrays) -> dict[str, i
                     f"{path}: {name} has {size} values along {dimension}, others have "
                     f"{sizes[dimension]}"
                 )
-        if variable.finite and not np.isfinite(array).all():
+        if variable.type != "string" and variable.finite and not np.isfinite(array).all():
             raise InputError(f"{path}: {name} holds values that are not finite numbers")
     return sizes

@@ -11,10 +11,12 @@ import json
 from pathlib import Path
 
 from grainfront.files.atomic import write_text
+from grainfront.files.contour import CONTOUR, CONTOUR_TIMING
 from grainfront.files.contract import CONTACTS, PACKING, SHAPES, STATISTICS
+from grainfront.files.error_vs_time import ERROR_VS_TIME
 from grainfront.files.header import cdl, json_schema
 
-CONTRACTS = (SHAPES, PACKING, CONTACTS, STATISTICS)
+CONTRACTS = (SHAPES, PACKING, CONTACTS, STATISTICS, CONTOUR, CONTOUR_TIMING, ERROR_VS_TIME)
 """Those of all result datasets."""
 
 

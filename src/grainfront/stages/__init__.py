@@ -4,13 +4,19 @@ Every result is written under a temporary name and renamed at the end. Faults of
 certificate that does not hold, end the job with one sentence.
 """
 
+from grainfront.stages.error_vs_time import error_vs_time, error_vs_time_picture
 from grainfront.stages.packing import kernels, packing, replacement, shapes, vtk
 from grainfront.stages.results import contacts, figures, photograph, statistics
 from grainfront.stages.sources import SOURCES, sources_digest
+from grainfront.stages.sweep import contour, contour_picture, sweep
 
 __all__ = [
     "SOURCES",
     "contacts",
+    "contour",
+    "contour_picture",
+    "error_vs_time",
+    "error_vs_time_picture",
     "figures",
     "kernels",
     "packing",
@@ -19,5 +25,6 @@ __all__ = [
     "shapes",
     "sources_digest",
     "statistics",
+    "sweep",
     "vtk",
 ]

@@ -19,6 +19,16 @@ SOURCES = {
         "certificate", "geometry", "jit", "statistics", "files.statistics", *_DATABASE,
         *_FILES, *_LAWS,
     ),
+    "sweep": (
+        "draw", "geometry", "jit", "packing", "statistics", "studies.sweep", "files.contour",
+        *_DATABASE, *_FILES, *_LAWS,
+    ),
+    "contour_picture": ("figures", "files.contour", *_FILES, *_LAWS),
+    "error_vs_time": (
+        "certificate", "draw", "geometry", "jit", "packing", "replacement", "shapes", "statistics",
+        "studies", "files.error_vs_time", *_FILES, *_LAWS,
+    ),
+    "error_vs_time_picture": ("figures", "files.error_vs_time", *_FILES, *_LAWS),
     "vtk": ("files.vtk", *_FILES, *_LAWS),
     "figures": (
         "certificate", "figures", "geometry", "jit", "shapes", "statistics", "files.statistics",

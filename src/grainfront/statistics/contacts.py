@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import shapely
 
-from grainfront.geometry.boxes import bounding_boxes, close_pairs, mark_near_boxes
+from grainfront.geometry.boxes import bounding_boxes, close_pairs
+from grainfront.geometry.nearness import near_nodes_and_edges
 from grainfront.geometry.rings import neighbours
 from grainfront.particles import CONTACT_TOLERANCE, Packing
 from grainfront.polygons import Polygons
@@ -57,25 +57,21 @@ def _pair_contacts(
     leaves the edges that separate the particles.
     """
     nodes = polygons.nodes
-    owner = np.repeat(np.arange(polygons.count), polygons.node_counts)
     before, after = neighbours(polygons.offsets)
-    node, edge = _close_nodes_and_edges(polygons, boxes, after, owner, tolerance)
+    pairs = close_pairs(boxes, tolerance)
+    row, node, edge = near_nodes_and_edges(nodes, polygons.offsets, boxes, pairs, tolerance)
     if node.size == 0:
         return np.empty((0, 2), dtype=np.int64), np.empty((0, 2)), np.empty((0, 2))
-
-    ends = np.sort(np.column_stack([owner[node], owner[edge]]), axis=1)
-    order = np.lexsort((ends[:, 1], ends[:, 0]))
-    node, edge, ends = node[order], edge[order], ends[order]
-    changes = np.any(ends[1:] != ends[:-1], axis=1)
-    starts = np.flatnonzero(np.concatenate([[True], changes]))
-    pair = np.cumsum(np.concatenate([[0], changes]))
+    _, starts, pair = np.unique(row, return_index=True, return_inverse=True)
+    ends = pairs[row]
 
     start, along = nodes[edge], nodes[after[edge]] - nodes[edge]
     outward = np.column_stack([along[:, 1], -along[:, 0]])
     outward /= np.hypot(along[:, 0], along[:, 1])[:, None]
     depth = np.min([_dot(nodes[k] - start, outward) for k in (before[node], node, after[node])], 0)
     separates = depth >= np.maximum.reduceat(depth, starts)[pair] - tolerance
-    votes = np.where(owner[edge] == ends[:, 0], 1.0, -1.0) * separates
+    of_first = edge < polygons.offsets[ends[:, 0] + 1]
+    votes = np.where(of_first, 1.0, -1.0) * separates
     normal = np.add.reduceat(votes[:, None] * outward, starts)
     normal /= np.hypot(normal[:, 0], normal[:, 1])[:, None]
 
@@ -85,24 +81,6 @@ def _pair_contacts(
     place = _dot(point - point[starts][pair], tangent[pair])
     middle = 0.5 * (np.minimum.reduceat(place, starts) + np.maximum.reduceat(place, starts))
     return ends[starts], point[starts] + middle[:, None] * tangent, normal
-
-
-def _close_nodes_and_edges(
-    polygons: Polygons, boxes: np.ndarray, after: np.ndarray, owner: np.ndarray, tolerance: float
-) -> tuple[np.ndarray, np.ndarray]:
-    """Indices of nodes and edges of different particles at most `tolerance` apart."""
-    nodes = polygons.nodes
-    near_nodes, near_edges = np.zeros((2, len(nodes)), dtype=np.bool_)
-    pairs = close_pairs(boxes, tolerance)
-    mark_near_boxes(nodes, polygons.offsets, boxes, pairs, tolerance, near_nodes, near_edges)
-    points, edges = np.flatnonzero(near_nodes), np.flatnonzero(near_edges)
-    lines = shapely.linestrings(np.stack([nodes[edges], nodes[after[edges]]], axis=1))
-    node, edge = shapely.STRtree(lines).query(
-        shapely.points(nodes[points]), predicate="dwithin", distance=tolerance
-    )
-    node, edge = points[node], edges[edge]
-    apart = owner[node] != owner[edge]
-    return node[apart], edge[apart]
 
 
 def _dot(u: np.ndarray, v: np.ndarray) -> np.ndarray:

@@ -7,6 +7,7 @@ import shapely
 
 from grainfront.geometry.boxes import bounding_boxes
 from grainfront.particles import Packing
+from grainfront.polygons import Polygons
 
 BULK_MARGIN = 2.0
 """Width of the strip along the walls that the bulk leaves out, in square roots of the mean area."""
@@ -33,9 +34,11 @@ def volume_fraction_bulk(packing: Packing) -> float:
     left, bottom, right, top = bounding_boxes(polygons.nodes, polygons.offsets).T
     inside = (left >= x_min) & (bottom >= y_min) & (right <= x_max) & (top <= y_max)
     outside = (left >= x_max) | (bottom >= y_max) | (right <= x_min) | (top <= y_min)
-    straddling = polygons.to_shapely()[~inside & ~outside]
+    straddling = Polygons.of(
+        polygons.polygon(i) for i in np.flatnonzero(~inside & ~outside).tolist()
+    )
     clipped = shapely.area(
-        shapely.intersection(straddling, shapely.box(x_min, y_min, x_max, y_max))
+        shapely.clip_by_rect(straddling.to_shapely(), x_min, y_min, x_max, y_max)
     )
     area = packing.area[inside].sum() + clipped.sum()
     return float(area / ((x_max - x_min) * (y_max - y_min)))

@@ -1,0 +1,1 @@
+"""What takes many packings of a scene; files are written elsewhere."""
