@@ -5,7 +5,7 @@ from __future__ import annotations
 from grainfront.geometry.placing import place_polygon
 from grainfront.jit import inlined, kernel
 from grainfront.packing import PRUNED_FROM_N_LOC
-from grainfront.packing.control import EFFORT_SUM, account, effort_now, round_effort
+from grainfront.packing.control import EFFORT_SUM, account, effort_now, spend
 from grainfront.packing.exhaustive import choose_exhaustively
 from grainfront.packing.front import bury, front_length, move_gap
 from grainfront.packing.grid import insert
@@ -105,9 +105,7 @@ def take_from_waiting(waiting, counters, turn):
 def choose_by_reach(front, placed, grid, domain, trials, memory, particle, n_angle, n_loc):
     """The resolved trial of least potential energy, pruned where the local front is long enough."""
     if n_loc >= PRUNED_FROM_N_LOC:
-        return choose_lowest(
-            front, placed, grid, domain, trials, memory, particle, n_angle, n_loc
-        )
+        return choose_lowest(front, placed, grid, domain, trials, memory, particle, n_angle, n_loc)
     return choose_exhaustively(front, placed, grid, domain, trials, particle, n_angle, n_loc)
 
 
@@ -148,8 +146,7 @@ def advance(
         offset = (supply.uniform[source] + GOLDEN_RATIO * counters[N_FAILED]) % 1.0
         if control is not None:
             effort = effort_now(control)
-            n_angle = round_effort(effort, most_n_angle, (control.uniform[source, 0] + offset) % 1.0)
-            n_loc = round_effort(effort, most_n_loc, (control.uniform[source, 1] + offset) % 1.0)
+            n_angle, n_loc = spend(control, effort, source, offset, most_n_angle, most_n_loc)
         draw_orientations(law, trials, n_angle, counters[N_PLACED], offset)
         particle = turn_and_inflate(supply, source, domain.clearance, trials, n_angle)
         if memory is None:

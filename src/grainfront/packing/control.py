@@ -76,9 +76,18 @@ def effort_now(control):
 
 
 @inlined
-def round_effort(effort, most, uniform):
-    """most ** effort, rounded up or down at random so that its mean is kept."""
-    return min(int(most**effort + uniform), most)
+def round_at_random(value, uniform):
+    """The whole number below or above a value, so that the mean is the value."""
+    return int(value + uniform % 1.0)
+
+
+@inlined
+def spend(control, effort, source, offset, most_n_angle, most_n_loc):
+    """n_angle and n_loc for a particle: powers of the most, from 1 at no effort."""
+    return (
+        min(round_at_random(most_n_angle**effort, control.uniform[source, 0] + offset), most_n_angle),
+        min(round_at_random(most_n_loc**effort, control.uniform[source, 1] + offset), most_n_loc),
+    )
 
 
 @inlined

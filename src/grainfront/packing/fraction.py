@@ -183,8 +183,9 @@ def pack_to_fraction(
 
     `particle_area`, (n_shapes,), is that of a particle of size 1 as the volume fraction counts it:
     of its hull, or of the outline that will replace it. `effort`, from 0 (the plain advancing front
-    method) to 1 (n_angle and n_loc of `empty`), is a guess to start with. The packing closest to the target is returned; `Attempts.reached` tells whether it is close
-    enough. This is ours: Du et al. (2023), section 4.3.4, choose n_angle and n_loc from a map.
+    method) to 1 (n_angle and n_loc of `empty`), is a guess to start with. The packing closest to
+    the target is returned; `Attempts.reached` tells whether it is close enough. This is ours: Du et
+    al. (2023), section 4.3.4, choose n_angle and n_loc from a map.
     """
     with compiling("controlled search") as compilation:
         make_ready(empty, particle_area)
@@ -239,3 +240,29 @@ def _at_end(finish: Finish, denser: bool) -> bool:
     """Whether a finish could not have been aimed denser, or looser, or could not follow."""
     lean = finish.lean if denser else -finish.lean
     return _spent(finish.effort, denser) or lean >= MOST_LEAN * (1.0 - AT_END)
+
+
+def effort_from_map(
+    n_angle: np.ndarray,
+    n_loc: np.ndarray,
+    volume_fraction: np.ndarray,
+    most_n_angle: int,
+    most_n_loc: int,
+    target: float,
+) -> float:
+    """The effort that leads to a target, from a map of volume fractions over n_angle and n_loc.
+
+    `volume_fraction` has the shape (n_angle.size, n_loc.size), both ascending. An effort p stands
+    for n_angle = most_n_angle^p and n_loc = most_n_loc^p, between whose values the map is
+    interpolated over the logarithms.
+    """
+    effort = np.linspace(0.0, 1.0, 101)
+    at_n_loc = np.array(
+        [np.interp(effort * np.log(most_n_loc), np.log(n_loc), row) for row in volume_fraction]
+    )
+    along = [
+        np.interp(p * np.log(most_n_angle), np.log(n_angle), column)
+        for p, column in zip(effort, at_n_loc.T, strict=True)
+    ]
+    # a map has noise: the first effort from which on the target is reached
+    return float(effort[np.argmax(np.maximum.accumulate(along) >= min(target, np.max(along)))])

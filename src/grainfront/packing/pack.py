@@ -50,16 +50,23 @@ def pack_hulls(
     n_angle = n_loc = 1 this is the plain advancing front method. Source: Du et al. (2023),
     sections 3 and 4.
     """
-    with compiling(f"{search_of(n_angle, n_loc)} search") as compilation:
-        state = prepare(hulls, shape, size, orientation, domain, n_angle, n_loc, rng)
-        state.advance_to(0)
-    kernel_s = run(state, size.size, progress)
-    return as_packing(state, aspect_ratio), RunTime(kernel_s, compilation.seconds)
+    empty = prepare(hulls, shape, size, orientation, domain, n_angle, n_loc, rng)
+    return fill(empty, aspect_ratio, progress)
 
 
-def run(
-    state: State, limit: int, progress: Callable[[int, float], None] | None = None
-) -> float:
+def fill(
+    empty: State,
+    aspect_ratio: np.ndarray,
+    progress: Callable[[int, float], None] | None = None,
+) -> tuple[Packing, RunTime]:
+    """Pack the particles of an empty packing until its domain is full; see `pack_hulls`."""
+    with compiling(f"{search_of(empty.n_angle, empty.n_loc)} search") as compilation:
+        empty.advance_to(0)
+    kernel_s = run(empty, empty.supply.size.size, progress)
+    return as_packing(empty, aspect_ratio), RunTime(kernel_s, compilation.seconds)
+
+
+def run(state: State, limit: int, progress: Callable[[int, float], None] | None = None) -> float:
     """Place particles until there are `limit` or the domain is full; the seconds it took."""
     hull_area = polygon_areas(state.supply.hull_nodes, state.supply.hull_offsets)
     area, seconds = 0.0, 0.0
