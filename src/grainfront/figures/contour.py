@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from grainfront.figures.style import INK, MM, PLACED, PRESCRIBED, styled
 
 N_LEVELS = 12
-# The ends of the map of colours, left out, are too dark and too bright for labels to be read on.
-COLOURS = "YlGnBu"
-AXES_LABELS = "trial orientations $n_{angle}$", "half-size of the local front $n_{loc}$"
+# Bright throughout, so that dark lines, labels and hatches are read everywhere.
+COLOURS = LinearSegmentedColormap.from_list("bright", ["#fdfdf0", "#bfe3dc", "#62a8d0"])
+N_ANGLE, N_LOC = r"$n_\mathrm{angle}$", r"$n_\mathrm{loc}$"
+AXES_LABELS = f"trial orientations {N_ANGLE}", f"half-size of the local front {N_LOC}"
 
 
 @styled
@@ -38,7 +40,7 @@ def contour(
         _draw_curve(axes, n_angle, n_loc, volume_fraction, target)
     each = f"mean of {seeds} packings each" if seeds > 1 else "one packing each"
     axes.set_title(f"volume fraction, {each}")
-    figure.legend(loc="outside lower center", ncols=3)
+    figure.legend(loc="outside lower left", ncols=1, markerscale=0.8)
     return figure
 
 
@@ -52,16 +54,17 @@ def _draw_map(
 ) -> None:
     x, y, fraction = np.log2(n_angle), np.log2(n_loc), volume_fraction.T
     levels = MaxNLocator(N_LEVELS).tick_values(fraction.min(), fraction.max())
-    filled = axes.contourf(x, y, fraction, levels, cmap=COLOURS, alpha=0.9)
+    filled = axes.contourf(x, y, fraction, levels, cmap=COLOURS)
     lines = axes.contour(x, y, fraction, levels, colors=INK, linewidths=0.4)
     axes.clabel(lines, fontsize=6)
     figure.colorbar(filled, ax=axes, label="volume fraction")
-    axes.plot(*(grid.ravel() for grid in np.meshgrid(x, y)), ".", color=INK, markersize=2.5)
+    places = np.meshgrid(x, y, indexing="ij")
+    axes.plot(*places, ".", color=INK, markersize=3, clip_on=False)
     _set_ticks(axes, n_angle, n_loc)
     if target is not None and fraction.max() >= target:
-        axes.contourf(x, y, fraction, [target, np.inf], colors="none", hatches=["////"])
+        axes.contourf(x, y, fraction, [target, np.inf], colors="none", hatches=["///"])
         axes.contour(x, y, fraction, [target], colors=PRESCRIBED, linewidths=1.6)
-    _mark_extremes(axes, n_angle, n_loc, volume_fraction, x, y)
+    _mark_extremes(axes, n_angle, n_loc, volume_fraction, *places)
     _mark_target(axes, volume_fraction, target)
 
 
@@ -74,9 +77,11 @@ def _draw_curve(
 ) -> None:
     over_loc = n_loc.size > 1
     effort = n_loc if over_loc else n_angle
-    axes.plot(np.log2(effort), volume_fraction.ravel(), "o-", color=PLACED, label="packed")
+    x = np.log2(effort).reshape(volume_fraction.shape)
+    axes.plot(x.ravel(), volume_fraction.ravel(), "o-", color=PLACED, markersize=4)
+    _mark_extremes(axes, n_angle, n_loc, volume_fraction, x, volume_fraction)
     axes.set_xticks(np.log2(effort), [str(n) for n in effort])
-    kept = f"$n_{{angle}}$ = {n_angle[0]}" if over_loc else f"$n_{{loc}}$ = {n_loc[0]}"
+    kept = f"{N_ANGLE} = {n_angle[0]}" if over_loc else f"{N_LOC} = {n_loc[0]}"
     axes.set_xlabel(f"{AXES_LABELS[over_loc]}; {kept}")
     axes.set_ylabel("volume fraction")
     if target is not None:
@@ -99,17 +104,18 @@ def _mark_extremes(
     x: np.ndarray,
     y: np.ndarray,
 ) -> None:
-    extremes = (("lower", "v", np.argmin), ("upper", "^", np.argmax))
-    for name, marker, found in extremes:
+    """Mark the least and the largest fraction at their places `x` and `y`, (n, m) each."""
+    for name, marker, found in (("lower", "v", np.argmin), ("upper", "^", np.argmax)):
         i, j = np.unravel_index(found(volume_fraction), volume_fraction.shape)
         axes.plot(
-            x[i], y[j], marker, color=PRESCRIBED, markeredgecolor="white", markersize=8,
+            x[i, j], y[i, j], marker, color=PRESCRIBED, markeredgecolor="white", markersize=8,
             clip_on=False, linestyle="none",
-            label=f"$V_{{{name}}}$ = {volume_fraction[i, j]:.4f} at {n_angle[i]}, {n_loc[j]}",
+            label=rf"$V_\mathrm{{{name}}}$ = {volume_fraction[i, j]:.4f} at {N_ANGLE} ="
+            f" {n_angle[i]}, {N_LOC} = {n_loc[j]}",
         )  # fmt: skip
 
 
 def _mark_target(axes: Axes, volume_fraction: np.ndarray, target: float | None) -> None:
     if target is not None:
         reached = "" if volume_fraction.max() >= target else " (not reached)"
-        axes.plot([], [], color=PRESCRIBED, label=f"target {target:g}{reached}")
+        axes.plot([], [], color=PRESCRIBED, label=f"target = {target:g}{reached}")

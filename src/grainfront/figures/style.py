@@ -55,6 +55,7 @@ STYLE = {
     "ytick.major.size": 2.5,
     "legend.frameon": False,
     "legend.fontsize": 7,
+    "hatch.linewidth": 0.4,
     "grid.linewidth": 0.4,
     "grid.color": "#d0d0d0",
 }

@@ -99,17 +99,17 @@ def pack_pilot(scale: PilotScale, n_angle: int, n_loc: int, height: float, seed:
 def fraction_with_walls_of(whole: Rectangle, packing: Packing, wall_depth: float) -> float:
     """Volume fraction of hulls that `whole` would have, from a packing of a part of it.
 
-    A wall takes area in proportion to its length: φ = φ_bulk − a / width − b / height. What the
-    side walls take is seen where the strips along them, `wall_depth` wide, are left out; likewise
-    bottom and top. A side as long as that of the whole is left as it is.
+    Opposite walls take a share of the area in inverse proportion to their distance, seen where the
+    strips along them, `wall_depth` wide, are left out: φ = φ_bulk (1 − a / width)(1 − b / height).
+    A side as long as that of the whole is left as it is.
     """
     domain = packing.domain
     found = float(packing.area.sum() / domain.area)
     expected = found
     for axis, length, full in ((0, domain.width, whole.width), (1, domain.height, whole.height)):
         if length < full:
-            away = fraction_away_from_walls(packing, axis, wall_depth)
-            expected += (away - found) * (1.0 - length / full)
+            gain = fraction_away_from_walls(packing, axis, wall_depth) / found - 1.0
+            expected *= 1.0 + gain * (1.0 - length / full)
     return expected
 
 
