@@ -23,6 +23,8 @@ from grainfront.shapes.sources import BinaryMasks, LabelMasks, Photographs, Shap
 
 if TYPE_CHECKING:
     from grainfront.certificate import Certificate
+    from grainfront.files.contour import Contour
+    from grainfront.packing.fraction import Attempts
     from grainfront.particles import Packing
     from grainfront.shapes.database import ShapeDatabase
     from grainfront.statistics import Contacts, OrientationRose, PackingStatistics
@@ -139,6 +141,38 @@ def write_packing(path: str | Path, packing: Packing, scene: Scene, seed: int) -
         seed=seed,
         length_unit=scene.length_unit,
         volume_fraction=float(packing.area.sum() / packing.domain.area),
+    )
+
+
+def write_target(path: str | Path, attempts: Attempts, scene: Scene, seed: int) -> None:
+    """Write how a target was reached as NetCDF; InputError where that is impossible."""
+    from grainfront.files import target
+
+    assert scene.target is not None, "attempts are made at a target only"
+    target.write_target(
+        path,
+        attempts.finishes,
+        scene=scene.text,
+        seed=seed,
+        length_unit=scene.length_unit,
+        target_volume_fraction=scene.target.volume_fraction,
+        target_tolerance=scene.target.tolerance,
+        packings=attempts.packings,
+    )
+
+
+def effort_from_map(scene: Scene, contour: Contour) -> float:
+    """The effort, from 0 to 1, that leads to the target of a scene, from its contour map."""
+    from grainfront.packing.fraction import effort_from_map
+
+    assert scene.target is not None, "an effort is looked up for a target only"
+    return effort_from_map(
+        contour.n_angle,
+        contour.n_loc,
+        contour.volume_fraction,
+        scene.packing.n_angle,
+        scene.packing.n_loc,
+        scene.target.volume_fraction,
     )
 
 

@@ -85,7 +85,9 @@ def round_at_random(value, uniform):
 def spend(control, effort, source, offset, most_n_angle, most_n_loc):
     """n_angle and n_loc for a particle: powers of the most, from 1 at no effort."""
     return (
-        min(round_at_random(most_n_angle**effort, control.uniform[source, 0] + offset), most_n_angle),
+        min(
+            round_at_random(most_n_angle**effort, control.uniform[source, 0] + offset), most_n_angle
+        ),
         min(round_at_random(most_n_loc**effort, control.uniform[source, 1] + offset), most_n_loc),
     )
 

@@ -17,32 +17,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from grainfront.jit import compiling
-from grainfront.packing.control import (
-    EFFORT_SUM,
-    ENCLOSED,
-    INTEGRAL,
-    RISE,
-    SOLID,
-    Control,
-    make_control,
-)
-from grainfront.packing.pack import RunTime, run
+from grainfront.packing.control import make_control
+from grainfront.packing.pack import RunTime
 from grainfront.packing.prepare import State, as_packing
+from grainfront.packing.steering import MOST_LEAN, Finish, Steering
 from grainfront.particles import Packing
 
 # Effort to start with where nothing is known: half way. The controller finds another within some
 # hundred particles.
 HALF_WAY = 0.5
-# Share of the domain that a finish fills: enough for the aim to make up for the top, and little
-# enough for many finishes to cost less than another packing. At least some rows, as high as the
-# mean particle is long.
-FINISH_SHARE, FINISH_ROWS = 0.15, 4.0
-# First guess of the solid missing along the top, in rows, times 1 + circumradius / inradius: long
-# particles leave larger hollows. Seen for rectangles of λ = 1.5 and 4 and for gravel; finishes tell
-# better.
-MISSING_ROW = 0.13
-# Finishes may aim this far beside the rest of the packing, which is to stay even.
-MOST_LEAN = 0.03
 # Packings started anew, and finishes of each, after which the target counts as missed. A domain of
 # 1,000 long grains may need as many; with 4,000 and more, two starts are rare.
 MOST_STARTS, MOST_FINISHES = 8, 8
@@ -52,23 +35,6 @@ OUT_OF_LUCK = 5.0
 # Finishes in a row with effort or aim at their ends after which no other will do better; an effort
 # that near to 0 or 1 is at its end.
 ENOUGH_AT_END, AT_END = 3, 0.02
-
-
-@dataclass(frozen=True)
-class Finish:
-    """One finish of the packing started as number `start`; efforts are means, from 0 to 1.
-
-    `lean` is how far it was aimed beside the rest of the packing.
-    """
-
-    start: int
-    shared_particles: int
-    shared_effort: float
-    aim: float
-    lean: float
-    effort: float
-    particles: int
-    volume_fraction: float
 
 
 @dataclass(frozen=True)
@@ -84,88 +50,6 @@ class Attempts:
         shared = {finish.start: finish.shared_particles for finish in self.finishes}
         finished = (finish.particles - finish.shared_particles for finish in self.finishes)
         return (sum(shared.values()) + sum(finished)) / self.finishes[-1].particles
-
-
-@dataclass(frozen=True)
-class Start:
-    """A packing made up to where the finishes begin."""
-
-    number: int
-    state: State
-    control: Control
-    effort: float
-
-    @property
-    def left(self) -> float:
-        """Area above the front."""
-        return self.state.domain_area - float(self.control.tally[ENCLOSED])
-
-    def expected(self, aim: float) -> float:
-        """Solid of the whole if the rest of the domain were filled to the aim, up to its top."""
-        return float(self.control.tally[SOLID]) + aim * self.left
-
-    def aim_for(self, solid: float) -> float:
-        """The aim that `expected` answers with this much solid, as far as it may lean."""
-        aim = (solid - float(self.control.tally[SOLID])) / self.left
-        return min(max(aim, self.control.aim - MOST_LEAN), self.control.aim + MOST_LEAN)
-
-
-class Steering:
-    """An empty packing to be filled to a volume fraction, with a count of the seconds spent."""
-
-    def __init__(self, empty: State, particle_area: np.ndarray, rng: np.random.Generator) -> None:
-        supply = empty.supply
-        radii = supply.circumradius[supply.shape]
-        self.empty, self.particle_area, self.rng = empty, particle_area, rng
-        self.mean_area = float(np.mean(particle_area[supply.shape] * supply.size**2))
-        self.row = 2.0 * float(np.mean(radii * supply.size)) / empty.domain_height
-        self.slenderness = float(np.mean(radii / supply.inradius[supply.shape]))
-        self.seconds = 0.0
-
-    def first_missing(self, target: float) -> float:
-        """A guess of the solid missing along the top, as share of the domain."""
-        return MISSING_ROW * (1.0 + self.slenderness) * self.row * target
-
-    def control(self, aim: float, effort: float) -> Control:
-        """A controller with random numbers of its own."""
-        return make_control(aim, effort, self.particle_area, self.empty.supply, self.rng)
-
-    def particles(self, share: float, aim: float) -> int:
-        """How many particles fill a share of the domain."""
-        return int(share * aim * self.empty.domain_area / self.mean_area)
-
-    def start(
-        self,
-        number: int,
-        aim: float,
-        effort: float,
-        progress: Callable[[int, float], None] | None,
-    ) -> Start:
-        """Fill the domain up to where the finishes begin."""
-        control = self.control(aim, effort)
-        state = self.empty.copy().steered(control, self.rng)
-        share = min(max(FINISH_SHARE, FINISH_ROWS * self.row), 1.0)
-        self.seconds += run(state, self.particles(1.0 - share, aim), progress)
-        return Start(number, state, control, _mean_effort(control, state.n_placed))
-
-    def finish(self, start: Start, aim: float) -> tuple[State, Finish]:
-        """Fill the rest of the domain."""
-        lean = aim - start.control.aim
-        control = self.control(aim, start.control.tally[INTEGRAL] + lean / RISE)
-        control.area[:] = start.control.area
-        state = start.state.copy().steered(control, self.rng)
-        self.seconds += run(state, state.supply.size.size)
-        shared = start.state.n_placed
-        return state, Finish(
-            start=start.number,
-            shared_particles=shared,
-            shared_effort=start.effort,
-            aim=aim,
-            lean=lean,
-            effort=_mean_effort(control, state.n_placed - shared),
-            particles=state.n_placed,
-            volume_fraction=float(control.area[: state.n_placed].sum()) / state.domain_area,
-        )
 
 
 def pack_to_fraction(
@@ -206,7 +90,7 @@ def pack_to_fraction(
                 best, closest = state, abs(finish.volume_fraction - target)
             if closest <= tolerance or _stuck(finishes, number, target):
                 break
-        effort = start.effort
+        effort = start.settled
         hopeless = closest > OUT_OF_LUCK * tolerance
         if closest <= tolerance or (hopeless and _spent(effort, finish.volume_fraction < target)):
             break
@@ -219,10 +103,6 @@ def make_ready(empty: State, particle_area: np.ndarray) -> None:
     nothing = np.random.default_rng(0)
     control = make_control(0.5, 0.0, particle_area, empty.supply, nothing)
     empty.copy().steered(control, nothing).advance_to(0)
-
-
-def _mean_effort(control: Control, particles: int) -> float:
-    return float(control.tally[EFFORT_SUM]) / max(particles, 1)
 
 
 def _spent(effort: float, denser: bool) -> bool:
