@@ -1,5 +1,6 @@
 # make               set up .venv and build the scenes that config/config.yaml names
 # make test          the same set-up, and the tests
+# make test-slurm    a trial of the workflow on a Slurm cluster that it starts here (needs root)
 # make report        results/SCENE/report.html: everything about a scene in one file for a browser
 # make bench         the benchmarks, as a table
 # make clean         remove .venv and what tools leave behind; results stay
@@ -16,13 +17,16 @@ PIN := uv pip compile --quiet --universal --python-version 3.11 --upgrade --gene
     --no-header --no-annotate
 
 .DEFAULT_GOAL := results
-.PHONY: results test report bench clean requirements
+.PHONY: results test test-slurm report bench clean requirements
 
 results: .venv/installed
 	$(RUN) snakemake
 
 test: .venv/installed-dev
 	$(RUN) pytest
+
+test-slurm: .venv/installed-slurm
+	$(RUN) python tests/slurm/run.py
 
 report: .venv/installed
 	$(RUN) snakemake --config 'scenes=[$(SCENE)]'
@@ -37,6 +41,7 @@ clean:
 requirements:
 	$(PIN) --output-file requirements.txt pyproject.toml
 	$(PIN) --constraint requirements.txt --extra dev --output-file requirements-dev.txt pyproject.toml
+	$(PIN) --constraint requirements.txt --extra slurm --output-file requirements-slurm.txt pyproject.toml
 
 # The marks are newer than what they were made from, so that an environment is set up once.
 .venv/installed: requirements.txt pyproject.toml
@@ -47,4 +52,8 @@ requirements:
 
 .venv/installed-dev: .venv/installed requirements-dev.txt
 	$(BIN)/python -m pip install --quiet --require-hashes --requirement requirements-dev.txt
+	touch $@
+
+.venv/installed-slurm: .venv/installed requirements-slurm.txt
+	$(BIN)/python -m pip install --quiet --require-hashes --requirement requirements-slurm.txt
 	touch $@

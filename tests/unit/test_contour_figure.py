@@ -61,7 +61,7 @@ def test_the_region_that_reaches_the_target_is_hatched():
     hatched = hatched_regions(drawn)
     assert [c.levels.tolist() for c in hatched] == [[0.75, np.inf]]
     (path,) = hatched[0].get_paths()
-    within = path.contains_points([(np.log2(24), np.log2(40) - 0.01), (0.1, 0.1)], radius=-1e-6)
+    within = path.contains_points([(np.log2(24), np.log2(40) - 0.01), (0.1, 0.1)])
     assert within.tolist() == [True, False]
     assert legend(drawn)[-1] == "target = 0.75"
 

@@ -47,6 +47,12 @@ class Project:
         path.write_text(text.replace(old, new), encoding="utf-8")
 
 
+@pytest.fixture(scope="session")
+def new_project() -> type[Project]:
+    """Makes projects, for fixtures that outlive a test."""
+    return Project
+
+
 @pytest.fixture
 def project(tmp_path) -> Project:
     """A project in which nothing has been built."""

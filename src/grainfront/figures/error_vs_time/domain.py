@@ -14,7 +14,10 @@ from grainfront.figures.error_vs_time.marks import (
     powers_of_ten,
     say,
 )
-from grainfront.figures.style import BRANCH, INK, PRESCRIBED, panel_letter
+from grainfront.figures.style import BRANCH, PRESCRIBED, panel_letter
+
+# Colour and place of the label of the effort that takes less from the walls, and of the other.
+BELOW, ABOVE = (BRANCH, (-50, -12)), (PRESCRIBED, (6, 4))
 
 
 def draw_domain(figure: Figure, found: Quantities) -> None:
@@ -24,12 +27,12 @@ def draw_domain(figure: Figure, found: Quantities) -> None:
     panel_letter(left, "a", "wall effect")
     panel_letter(right, "b", "cost")
     efforts = list(zip(found["fit_n_angle"], found["fit_n_loc"], strict=True))
-    for k, (effort, colour) in enumerate(zip(efforts, (BRANCH, PRESCRIBED), strict=False)):
+    for k, (effort, (colour, offset)) in enumerate(zip(efforts, (BELOW, ABOVE), strict=False)):
         of = (found["n_angle"] == effort[0]) & (found["n_loc"] == effort[1])
         name = f"n_angle / n_loc = {effort[0]} / {effort[1]}"
         number = found["particles"][of]
         marks(left, number, found["wall_effect"][of], colour, label=name)
-        _guide(left, number, found["wall_effect"][of], colour)
+        _guide(left, number, found["wall_effect"][of], colour, offset)
         marks(right, number, found["kernel_s"][of], colour, label=name)
         _fit(right, number, found["exponent"][k], found["coefficient"][k], colour)
     for axes in (left, right):
@@ -40,7 +43,13 @@ def draw_domain(figure: Figure, found: Quantities) -> None:
     right.set_ylabel("kernel time (s)")
 
 
-def _guide(axes: Axes, particles: np.ndarray, wall_effect: np.ndarray, colour: str) -> None:
+def _guide(
+    axes: Axes,
+    particles: np.ndarray,
+    wall_effect: np.ndarray,
+    colour: str,
+    offset: tuple[int, int],
+) -> None:
     """The share of the walls' neighbourhood in the domain, through the points' middle."""
     number, effect = medians(particles), medians(wall_effect)
     level = float(np.median(effect * np.sqrt(number)))
@@ -48,7 +57,7 @@ def _guide(axes: Axes, particles: np.ndarray, wall_effect: np.ndarray, colour: s
     if level > 0.0:
         text = f"{level:.2f} $N^{{-1/2}}$"
         middle = float(np.sqrt(number[0] * number[-1]))
-        say(axes, middle, level / np.sqrt(middle), text, color=colour)
+        say(axes, middle, level / np.sqrt(middle), text, color=colour, offset=offset)
 
 
 def _fit(
@@ -56,6 +65,6 @@ def _fit(
 ) -> None:
     number = medians(particles)
     axes.plot(number, coefficient * number**exponent, color=colour, linewidth=0.8)
-    end = float(number[-1])
-    say(axes, end, coefficient * end**exponent, f"$\\propto N^{{{exponent:.2f}}}$", color=INK,
-        offset=(-4, -10), ha="right")  # fmt: skip
+    middle = float(np.sqrt(number[0] * number[-1]))
+    text = f"$\\propto N^{{{exponent:.2f}}}$"
+    say(axes, middle, coefficient * middle**exponent, text, color=colour, offset=(5, -8))

@@ -13,6 +13,7 @@ from grainfront.figures.error_vs_time.marks import (
     medians,
     percent,
     plain_numbers,
+    ring,
     say,
 )
 from grainfront.figures.style import ACCENT, BRANCH, INK, PRESCRIBED, panel_letter
@@ -34,7 +35,7 @@ def draw_drawing(figure: Figure, found: Quantities) -> None:
         percent(axes)
         bins = np.unique(found["n_bin"][found["n_bin"] > 0])
         plain_numbers(axes, bins)
-        axes.set_xlim(bins[0] / 1.5, bins[-1] * 1.5)
+        axes.set_xlim(0.65 * bins[0], 1.5 * bins[-1])
         axes.set_xlabel("bins whose deficits steer")
     left.set_ylabel("L2 error $E_2$ in 24 bins")
 
@@ -53,7 +54,7 @@ def _draw_alone(axes: Axes, found: Quantities) -> None:
         axes.axhspan(np.nanmin(errors), np.nanmax(errors), color=colour, alpha=0.2, linewidth=0)
         middle = float(np.nanmedian(errors))
         axes.axhline(middle, color=colour, linewidth=1)
-        say(axes, 1.5, middle, f"{method}, {_milliseconds(found, of)}", color=colour)
+        say(axes, 0.7, middle, f"{method}, {_milliseconds(found, of)}", color=colour)
 
 
 def _milliseconds(found: Quantities, of: np.ndarray) -> str:
@@ -68,4 +69,6 @@ def _draw_placed(axes: Axes, found: Quantities) -> None:
         n_bin, error = found["n_bin"][of], found["orientation_l2_error"][of]
         marks(axes, n_bin, error, colour, linestyle="-",
               label=f"n_angle = {n_angle}, {np.median(found['cpu_s'][of]):.2g} s")  # fmt: skip
+    ring(axes, found["n_bin"][placed], found["orientation_l2_error"][placed],
+         found["pareto"][placed])  # fmt: skip
     axes.legend(loc="lower left")

@@ -9,6 +9,8 @@ from matplotlib.figure import Figure
 from grainfront.figures.error_vs_time.marks import Quantities, marks, medians, say
 from grainfront.figures.style import ACCENT, BRANCH, INK, MM, PLACED, PRESCRIBED
 
+# Labels this share of the picture apart do not touch.
+APART = (0.09, 0.045)
 # Families after Du et al. (2023), Fig. 15.
 FAMILIES = (
     ("plain advancing front", INK, "s"),
@@ -33,13 +35,18 @@ def draw_effort(figure: Figure, found: Quantities) -> None:
     _draw_front(axes, found)
     best = medians(found["volume_fraction"]).max()
     axes.set_xscale("log")
-    axes.set_xlabel("kernel time (s)")
-    axes.set_ylabel("deficit of the volume fraction to the best")
-    axes.set_title(f"{int(medians(found['particles']).max()):,} grains; best fraction {best:.3f}")
+    axes.set_xlabel(f"kernel time (s) of {int(medians(found['particles']).max()):,} grains")
+    axes.set_ylabel(f"deficit of the volume fraction to the best, {best:.3f}")
     on_the_right = axes.secondary_yaxis(
-        "right", functions=(lambda deficit: best - deficit, lambda fraction: best - fraction)
+        "right", functions=(lambda deficit: np.subtract(best, deficit),) * 2
     )
     on_the_right.set_ylabel("volume fraction")
+    a_grain = 1e6 / float(np.median(found["particles"]))
+    on_top = axes.secondary_xaxis(
+        "top",
+        functions=(lambda s: np.multiply(s, a_grain), lambda micro: np.divide(micro, a_grain)),
+    )
+    on_top.set_xlabel("µs a grain, about")
     axes.legend(loc="upper right")
 
 
@@ -51,6 +58,19 @@ def _draw_front(axes: Axes, found: Quantities) -> None:
         time[order], deficit[order], where="post", color=PRESCRIBED, linewidth=1, zorder=1,
         label="Pareto front, n_angle / n_loc",
     )  # fmt: skip
-    for x, y, i in zip(time, deficit, front, strict=True):
+    for k in _apart(np.log(time), deficit):
+        x, y, i = time[k], deficit[k], front[k]
         text = f"{found['n_angle'][i]} / {found['n_loc'][i]}"
         say(axes, x, y, text, offset=(-3, -3), ha="right", va="top", color=PRESCRIBED)
+
+
+def _apart(x: np.ndarray, y: np.ndarray) -> list[int]:
+    """Points of a curve, from its end on, that are so far from each other that labels fit."""
+    width, height = max(float(np.ptp(x)), 1e-9), max(float(np.ptp(y)), 1e-9)
+    kept: list[int] = []
+    for i in np.argsort(x)[::-1]:
+        across = np.abs(x[kept] - x[i]) / width
+        along = np.abs(y[kept] - y[i]) / height
+        if ((across > APART[0]) | (along > APART[1])).all():
+            kept.append(int(i))
+    return kept[::-1]

@@ -17,6 +17,7 @@ Quantities = Mapping[str, np.ndarray]
 TWO_PANELS = (WIDTH, 78 * MM)
 HALO = [withStroke(linewidth=2, foreground="white")]
 LABEL: dict[str, Any] = {"fontsize": 6.5, "color": INK, "path_effects": HALO}
+MARK: dict[str, Any] = {"marker": "o", "linestyle": "none", "linewidth": 1.0}
 BAR: dict[str, Any] = {"elinewidth": 0.5, "capsize": 0, "markersize": 3.5}
 
 
@@ -35,8 +36,16 @@ def spread(values: np.ndarray) -> np.ndarray:
 def marks(axes: Axes, x: np.ndarray, y: np.ndarray, colour: str, **style: Any) -> None:
     """Marks at the medians of `x` and `y`, (n_points, ...), with bars from least to largest."""
     axes.errorbar(
-        medians(x), medians(y), yerr=spread(y), xerr=spread(x), color=colour,
-        **({"marker": "o", "linestyle": "none"} | BAR | style),
+        medians(x), medians(y), yerr=spread(y), xerr=spread(x), color=colour, **(MARK | BAR | style)
+    )
+
+
+def ring(axes: Axes, x: np.ndarray, y: np.ndarray, pareto: np.ndarray) -> None:
+    """Rings round the points on the Pareto front."""
+    front = pareto == 1
+    axes.plot(
+        medians(x)[front], medians(y)[front], "o", markersize=7, markerfacecolor="none",
+        markeredgecolor=INK, markeredgewidth=0.7, label="on the Pareto front",
     )  # fmt: skip
 
 

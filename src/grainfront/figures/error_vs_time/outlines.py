@@ -7,14 +7,16 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from grainfront.figures.error_vs_time.marks import (
+    HALO,
     TWO_PANELS,
     Quantities,
     marks,
     medians,
     powers_of_ten,
+    ring,
     say,
 )
-from grainfront.figures.style import ACCENT, BRANCH, INK, PLACED, PRESCRIBED, panel_letter
+from grainfront.figures.style import ACCENT, BRANCH, PLACED, PRESCRIBED, panel_letter
 
 COLOURS = {
     "area": PLACED,
@@ -63,8 +65,10 @@ def _draw_floor(axes: Axes, found: Quantities) -> None:
     scatter = float(np.ptp(of_reference))
     if scatter > 0.0:
         axes.axhline(scatter, color=PRESCRIBED, linewidth=0.8, linestyle=(0, (4, 3)))
-        say(axes, found["vertices"].max(), scatter, "range of the fraction over seeds",
-            ha="right", color=PRESCRIBED)  # fmt: skip
+        axes.text(
+            0.98, 1.1 * scatter, "range of the fraction over seeds", ha="right", fontsize=6.5,
+            color=PRESCRIBED, transform=axes.get_yaxis_transform(), path_effects=HALO,
+        )  # fmt: skip
     axes.legend(loc="lower left")
 
 
@@ -75,5 +79,5 @@ def _draw_costs(axes: Axes, found: Quantities) -> None:
     time = medians(found["kernel_s"])
     for x, y, vertices in zip(time, found["perimeter_error"], found["vertices"], strict=True):
         say(axes, x, y, f"{vertices:.0f}", color=COLOURS["perimeter"])
-    axes.tick_params(labelcolor=INK)
+    ring(axes, found["kernel_s"], found["perimeter_error"], found["pareto"])
     axes.legend(loc="lower left")

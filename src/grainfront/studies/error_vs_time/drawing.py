@@ -14,7 +14,7 @@ from grainfront.scene import Scene
 from grainfront.shapes.database import ShapeDatabase
 from grainfront.statistics import N_BIN, l2_error
 from grainfront.statistics.distributions import wrap_orientation
-from grainfront.studies.error_vs_time.record import AxisRecord, joined, pareto_front
+from grainfront.studies.error_vs_time.record import Arrays, AxisRecord, pareto_front
 from grainfront.studies.error_vs_time.runs import Point, run, with_effort
 
 # Bins whose deficits steer: coarser than those of the measure, as fine, and finer.
@@ -37,7 +37,10 @@ def measure_drawing(
     packed = _packings(scene, database, seeds, repeats)
     particles = packed.results["particles"]
     drawn = _drawings(scene, database, particles[0], seeds, repeats)
-    return joined(drawn, packed)
+    settings = _joined(drawn.settings, packed.settings)
+    results = _joined(drawn.results, packed.results)
+    cpu_s = _joined(drawn.seconds, packed.seconds)["cpu_s"]
+    return AxisRecord(settings, results, {"cpu_s": cpu_s}, _fronts(settings, results, cpu_s))
 
 
 def independent(law: Law, n: int, rng: np.random.Generator) -> np.ndarray:
@@ -92,7 +95,6 @@ def _drawings(
         },
         results=errors | {"particles": np.tile(numbers, (len(ways), 1))},
         seconds={"cpu_s": cpu_s},
-        pareto=pareto_front(cpu_s, _largest(errors)),
     )
 
 
@@ -121,7 +123,6 @@ def _packings(
         },
         results=found.numbers,
         seconds={"cpu_s": found.kernel_s},
-        pareto=pareto_front(found.kernel_s, found.numbers["orientation_l2_error"]),
     )
 
 
@@ -161,6 +162,27 @@ def _l2_errors(
     }
 
 
-def _largest(errors: dict[str, np.ndarray]) -> np.ndarray:
-    """The largest of the errors at each point and for each seed."""
-    return np.nanmax(np.stack(list(errors.values())), axis=0)
+def _joined(first: Arrays, second: Arrays) -> Arrays:
+    """The points of two axes of the same quantities."""
+    return {name: np.concatenate([first[name], second[name]]) for name in first}
+
+
+def _fronts(settings: Arrays, results: Arrays, cpu_s: np.ndarray) -> np.ndarray:
+    """The Pareto fronts of values drawn alone, by their largest error, and of packings.
+
+    Bins cost nothing that could be measured, so points that differ by bins alone share the median
+    of their times.
+    """
+    packed = settings["method"] == "packing"
+    time = np.empty(packed.size)
+    for i, (method, n_angle) in enumerate(
+        zip(settings["method"], settings["n_angle"], strict=True)
+    ):
+        alike = (settings["method"] == method) & (settings["n_angle"] == n_angle)
+        time[i] = np.median(cpu_s[alike])
+    largest = np.nanmax([results[f"{law}_l2_error"] for law in LAWS], axis=0)
+    error = np.where(packed[:, None], results["orientation_l2_error"], largest)
+    pareto = np.zeros(packed.size, dtype=np.int64)
+    for group in (packed, ~packed):
+        pareto[group] = pareto_front(time[group], error[group])
+    return pareto

@@ -48,18 +48,3 @@ def pareto_front(seconds: np.ndarray, error: np.ndarray) -> np.ndarray:
 def over_points(values: np.ndarray) -> np.ndarray:
     """Medians over seeds and repeats, shape (n_points,)."""
     return np.array([np.median(of_point) for of_point in values])
-
-
-def joined(first: AxisRecord, second: AxisRecord) -> AxisRecord:
-    """The points of two records of the same quantities, each with its own Pareto front."""
-    assert first.pareto is not None and second.pareto is not None
-    return AxisRecord(
-        settings=_joined(first.settings, second.settings),
-        results=_joined(first.results, second.results),
-        seconds=_joined(first.seconds, second.seconds),
-        pareto=np.concatenate([first.pareto, second.pareto]),
-    )
-
-
-def _joined(first: Arrays, second: Arrays) -> Arrays:
-    return {name: np.concatenate([first[name], second[name]]) for name in first}
