@@ -5,7 +5,6 @@ What a stage alone needs is imported when it is called, so that a scene pays onl
 
 from __future__ import annotations
 
-import math
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -17,28 +16,24 @@ import numpy as np
 from grainfront.errors import InputError
 from grainfront.scene import Scene
 from grainfront.scene import load_scene as load_scene
+from grainfront.scene_packing import pack as pack
+from grainfront.scene_packing import pack_to_target as pack_to_target
+from grainfront.scene_packing import shape_coverage as shape_coverage
 from grainfront.shapes.sources import BinaryMasks, LabelMasks, Photographs, ShapeSource
 
 if TYPE_CHECKING:
     from grainfront.certificate import Certificate
-    from grainfront.draw import Coverage
-    from grainfront.packing.pack import RunTime
+    from grainfront.files.contour import Contour
+    from grainfront.packing.fraction import Attempts
     from grainfront.particles import Packing
     from grainfront.shapes.database import ShapeDatabase
     from grainfront.statistics import Contacts, OrientationRose, PackingStatistics
 
 ImageSource = Photographs | BinaryMasks | LabelMasks
 
-# Every stage draws from a generator of its own, so that none disturbs another.
-DRAW_STAGE, PACKING_STAGE = 1, 2
 # The shapes of a random family are the same for every seed, so that packings differ by the packing
 # alone, and one more seed leaves the database as it is.
 SHAPES_SEED = 0
-# A domain is never full, so particles of its whole area would be enough if their mean area were
-# exact; the margin is for the scatter of that mean.
-AREA_MARGIN = 1.05
-# More particles than this are refused: their arrays would fill some 10 GB.
-MOST_PARTICLES = 5 * 10**7
 # A progress bar shows up only on packings that take longer than this.
 SECONDS_BEFORE_BAR = 1.0
 
@@ -56,113 +51,6 @@ def build_shapes_of(source: ShapeSource) -> ShapeDatabase:
     from grainfront.shapes.database import build_database
 
     return build_database(source, np.random.default_rng(SHAPES_SEED))
-
-
-def shape_coverage(scene: Scene, database: ShapeDatabase) -> Coverage | None:
-    """How far the shapes can follow the scene's law of a descriptor; None where there is none."""
-    from grainfront.draw import coverage
-
-    if scene.matched is None:
-        return None
-    name, law = scene.matched
-    try:
-        return coverage(database.descriptors[name], law)
-    except InputError as error:
-        raise InputError(f"{scene.name}: {name}: {error}") from None
-
-
-def pack(
-    scene: Scene,
-    database: ShapeDatabase,
-    seed: int,
-    progress: Callable[[int, float], None] | None = None,
-) -> tuple[Packing, RunTime]:
-    """Pack hulls of the database into the domain of the scene until it is full.
-
-    `seed` decides sizes, shapes and orientations: the same scene, database and seed give the same
-    packing, bit for bit. `progress` is told the particles placed and the volume fraction so far.
-    Raises InputError where no shape has the descriptor that is to follow a law, and where the
-    domain lies too far from the origin, or is too small or too large for the grains.
-    Source: Du et al. (2023), doi 10.1016/j.jrmge.2022.03.009, sections 3 and 4.
-    """
-    from grainfront.packing.orientations import STEPS_A_BIN, orientation_law
-    from grainfront.packing.pack import pack_hulls
-
-    _require_resolved(scene)
-    shape_coverage(scene, database)
-    shape, size = _draw_enough(scene, database, seed)
-    effort = scene.packing
-    law = scene.orientation
-    packing, run_time = pack_hulls(
-        database.hulls,
-        database.descriptors["aspect_ratio"],
-        shape,
-        size,
-        orientation_law(
-            law.bins(effort.n_bin)[1], law.quantiles_within_support(STEPS_A_BIN * effort.n_bin)
-        ),
-        scene.domain,
-        n_angle=effort.n_angle,
-        n_loc=effort.n_loc,
-        rng=_generator(seed, PACKING_STAGE),
-        progress=progress,
-    )
-    if packing.x.size == 0:
-        raise InputError(
-            f"{scene.name}: no particle fits into the domain of {scene.domain.width:g} by "
-            f"{scene.domain.height:g} {scene.length_unit}: it must have room for the grains drawn"
-        )
-    return packing, run_time
-
-
-def _require_resolved(scene: Scene) -> None:
-    """Raise InputError where the rounding of coordinates would open the contacts of the grains."""
-    from grainfront.packing.state import CLEARANCE_ULPS
-    from grainfront.particles import CONTACT_TOLERANCE
-
-    domain = scene.domain
-    farthest = max(map(abs, (domain.x_min, domain.y_min, domain.x_max, domain.y_max)))
-    # the clearance between placed particles may take up half of a contact's tolerance
-    clearance = 0.5 * CONTACT_TOLERANCE * scene.size.moment(1)
-    allowed = clearance / (CLEARANCE_ULPS * float(np.spacing(1.0)))
-    if farthest > allowed:
-        raise InputError(
-            f"{scene.name}: domain reaches to a coordinate of {farthest:g}, but must stay within "
-            f"{allowed:.3g}, beyond which rounding spoils the contacts of grains of these sizes"
-        )
-
-
-def _draw_enough(scene: Scene, database: ShapeDatabase, seed: int) -> tuple[np.ndarray, np.ndarray]:
-    """Shapes and sizes of so many particles that they cannot all find a place."""
-    from grainfront.draw import draw_particles
-    from grainfront.packing.advance import WAITING_PLACES
-
-    hull_area = database.descriptors["hull_area"]
-    matched = None
-    if scene.matched is not None:
-        name, law = scene.matched
-        matched = database.descriptors[name], law
-    mean_area = float(hull_area.mean()) * scene.size.moment(2)
-    narrowest = min(scene.domain.width, scene.domain.height)
-    n = math.ceil(AREA_MARGIN * scene.domain.area / mean_area) + WAITING_PLACES
-    while n <= MOST_PARTICLES:
-        rng = _generator(seed, DRAW_STAGE)
-        shape, size = draw_particles(database.count, scene.size, n, rng, matched)
-        area = np.where(size <= narrowest, hull_area[shape] * size**2, 0.0)
-        largest = np.partition(area, -WAITING_PLACES)[-WAITING_PLACES:]
-        wanted = scene.domain.area + largest.sum()
-        if area.sum() >= wanted or not area.any():
-            return shape, size
-        n = math.ceil(AREA_MARGIN * n * wanted / area.sum())
-    raise InputError(
-        f"{scene.name}: a domain of {scene.domain.width:g} × {scene.domain.height:g} takes more "
-        f"than {MOST_PARTICLES:,} particles of these sizes to fill, but at most that many are "
-        "allowed"
-    )
-
-
-def _generator(seed: int, stage: int) -> np.random.Generator:
-    return np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(stage,)))
 
 
 def replace(packing: Packing, database: ShapeDatabase) -> Packing:
@@ -256,6 +144,38 @@ def write_packing(path: str | Path, packing: Packing, scene: Scene, seed: int) -
     )
 
 
+def write_target(path: str | Path, attempts: Attempts, scene: Scene, seed: int) -> None:
+    """Write how a target was reached as NetCDF; InputError where that is impossible."""
+    from grainfront.files import target
+
+    assert scene.target is not None, "attempts are made at a target only"
+    target.write_target(
+        path,
+        attempts.finishes,
+        scene=scene.text,
+        seed=seed,
+        length_unit=scene.length_unit,
+        target_volume_fraction=scene.target.volume_fraction,
+        target_tolerance=scene.target.tolerance,
+        packings=attempts.packings,
+    )
+
+
+def effort_from_map(scene: Scene, contour: Contour) -> float:
+    """The effort, from 0 to 1, that leads to the target of a scene, from its contour map."""
+    from grainfront.packing.fraction import effort_from_map
+
+    assert scene.target is not None, "an effort is looked up for a target only"
+    return effort_from_map(
+        contour.n_angle,
+        contour.n_loc,
+        contour.volume_fraction,
+        scene.packing.n_angle,
+        scene.packing.n_loc,
+        scene.target.volume_fraction,
+    )
+
+
 def warn_of_uncovered(scene: Scene, database: ShapeDatabase) -> None:
     """Say on standard error which share of the particles cannot follow the law of a descriptor."""
     found = shape_coverage(scene, database)
@@ -295,7 +215,12 @@ def progress_bar() -> Iterator[Callable[[int, float], None] | None]:
 
 
 def search(scene: Scene) -> str:
-    """How the lowest trials of a scene are found, "exhaustive" or "pruned": it has own kernels."""
+    """How the lowest trials of a scene are found: each search has kernels of its own.
+
+    "exhaustive" or "pruned", or "controlled" where the effort follows a target volume fraction.
+    """
     from grainfront.packing import search_of
 
+    if scene.target is not None:
+        return "controlled"
     return search_of(scene.packing.n_angle, scene.packing.n_loc)

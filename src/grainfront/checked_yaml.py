@@ -21,6 +21,7 @@ LIMITS = {
     "minimum": "at least",
     "exclusiveMinimum": "greater than",
     "maximum": "at most",
+    "exclusiveMaximum": "less than",
     "enum": "one of",
 }
 TYPES = {
@@ -143,6 +144,9 @@ def _sentence(error: Any) -> str:
         allowed = _keys(error.schema["properties"])
         return f"{_dotted(keys)} has {given}, but must have exactly one of {allowed}"
     value = error.validator_value
+    if rule == "dependentRequired":
+        key = next(key for key in value if key in found and set(value[key]) - set(found))
+        return f"{_dotted((*keys, key))} is given, but must come with {_keys(value[key])}"
     if rule in LIMITS:
         allowed = f"{LIMITS[rule]} {_keys(value) if rule == 'enum' else value}"
     elif rule == "type":

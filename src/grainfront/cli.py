@@ -144,12 +144,17 @@ def _pack(options: argparse.Namespace) -> None:
         "compile_s": run_time.compile_s,
         "left_over": packing.left_over,
     }
+    outlines = ""
+    if scene.replacement:
+        of_outlines, _ = api.volume_fractions(api.replace(packing, database))
+        result["volume_fraction_outlines"] = of_outlines
+        outlines = f", their outlines {of_outlines:.4f}"
     if options.json:
         print(json.dumps(result))
     else:
         print(
             f"{result['particles']:,} particles at a volume fraction of {fraction:.4f} "
-            f"({bulk:.4f} away from the walls), packed in {run_time.kernel_s:.2f} s; "
+            f"({bulk:.4f} away from the walls){outlines}, packed in {run_time.kernel_s:.2f} s; "
             f"{packing.left_over} left over; certified; written to {options.output}"
         )
 

@@ -200,8 +200,16 @@ def _target(data: dict[str, Any]) -> Target | None:
 
 
 def _part(kind: Callable[..., T], key: str, data: dict[str, Any]) -> T | None:
-    """An optional part of the scene."""
-    return kind(**_frozen(data[key])) if key in data else None
+    """An optional part of the scene; JSON Schema lets 24.0 pass for a whole number in a list."""
+    if key not in data:
+        return None
+    return kind(**{name: _whole(value) for name, value in _frozen(data[key]).items()})
+
+
+def _whole(value: Any) -> Any:
+    if isinstance(value, tuple):
+        return tuple(map(_whole, value))
+    return int(value) if isinstance(value, float) and value.is_integer() else value
 
 
 def _shapes(data: dict[str, Any], folder: Path) -> ShapeSource:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from grainfront import api
@@ -10,14 +12,16 @@ from grainfront.laws import Constant, Uniform
 from grainfront.packing import PRUNED_FROM_N_LOC
 from grainfront.particles import Rectangle
 from grainfront.polygons import Polygons
-from grainfront.scene import PackingEffort, Scene
+from grainfront.scene import PackingEffort, Scene, Target
 from grainfront.shapes.database import ShapeDatabase
 from grainfront.shapes.sources import RegularPolygon
 
 
 def compile_kernels(search: str) -> None:
-    """Compile the kernels of a search, "exhaustive" or "pruned", down to the certificate."""
-    scene, database = _smallest_scene(PRUNED_FROM_N_LOC if search == "pruned" else 1)
+    """Compile the kernels of a search, one of `api.search`, down to the certificate."""
+    scene, database = _smallest_scene(1 if search == "exhaustive" else PRUNED_FROM_N_LOC)
+    if search == "controlled":
+        scene = replace(scene, target=Target(volume_fraction=0.5, tolerance=0.5))
     packing, _ = api.pack(scene, database, seed=0)
     with compiling("certificate"):
         for one in (packing, api.replace(packing, database)):

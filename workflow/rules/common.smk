@@ -67,6 +67,8 @@ def results_of(scene):
             yield f"{folder}/{seed}/contacts{kind}.nc"
             if "vtk" in scene.outputs:
                 yield f"{folder}/{seed}/{KINDS[kind]}.vtp"
+    if scene.target:
+        yield from (f"{folder}/{seed}/target.nc" for seed in scene.seeds)
     if scene.sweep:
         yield from (f"{folder}/contour.nc", f"{folder}/contour_timing.nc")
     if "figures" in scene.outputs:

@@ -1,5 +1,12 @@
 # Hulls packed by the advancing front method.
 
+TARGETED = [name for name, scene in SCENES.items() if scene.target]
+
+
+def one_of(names):
+    """A pattern for these names alone; one that fits nothing where there are none."""
+    return "|".join(names) or "(?!)"
+
 
 # One packing a seed; the run time has a file of its own, so that equal input gives equal bytes.
 rule packing:
@@ -9,6 +16,8 @@ rule packing:
     output:
         packing="results/{scene}/{seed}/packing.nc",
         timing="results/{scene}/{seed}/timing.json",
+    wildcard_constraints:
+        scene=one_of(name for name in SCENES if name not in TARGETED),
     params:
         scene=lambda wildcards: scene_file(wildcards.scene),
         depends_on=of_scene(
@@ -19,3 +28,40 @@ rule packing:
         "{wildcards.scene}: packing of seed {wildcards.seed}"
     script:
         "../scripts/packing.py"
+
+
+def contour_of(wildcards):
+    """The contour map of a scene that asks for one; it tells where to start."""
+    swept = SCENES[wildcards.scene].sweep
+    return {"contour": f"results/{wildcards.scene}/contour.nc"} if swept else {}
+
+
+# The same to a target volume fraction; how it was reached has a file of its own.
+rule packing_to_target:
+    input:
+        unpack(contour_of),
+        database="results/{scene}/shapes.nc",
+        compiled=ancient("results/.controlled.compiled"),
+    output:
+        packing="results/{scene}/{seed}/packing.nc",
+        target="results/{scene}/{seed}/target.nc",
+        timing="results/{scene}/{seed}/timing.json",
+    wildcard_constraints:
+        scene=one_of(TARGETED),
+    params:
+        scene=lambda wildcards: scene_file(wildcards.scene),
+        depends_on=of_scene(
+            "length_unit",
+            "domain",
+            "size",
+            "matched",
+            "orientation",
+            "packing",
+            "target",
+            "replacement",
+        ),
+        sources=stages.sources_digest("packing_to_target"),
+    message:
+        "{wildcards.scene}: packing of seed {wildcards.seed} to its target volume fraction"
+    script:
+        "../scripts/packing_to_target.py"

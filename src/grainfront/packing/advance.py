@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from grainfront.geometry.placing import place_polygon
 from grainfront.jit import inlined, kernel
+from grainfront.packing import PRUNED_FROM_N_LOC
+from grainfront.packing.control import EFFORT_SUM, account, effort_now, spend
 from grainfront.packing.exhaustive import choose_exhaustively
 from grainfront.packing.front import bury, front_length, move_gap
 from grainfront.packing.grid import insert
@@ -99,6 +101,14 @@ def take_from_waiting(waiting, counters, turn):
     counters[TURN] = counters[PARKED]
 
 
+@inlined
+def choose_by_reach(front, placed, grid, domain, trials, memory, particle, n_angle, n_loc):
+    """The resolved trial of least potential energy, pruned where the local front is long enough."""
+    if n_loc >= PRUNED_FROM_N_LOC:
+        return choose_lowest(front, placed, grid, domain, trials, memory, particle, n_angle, n_loc)
+    return choose_exhaustively(front, placed, grid, domain, trials, particle, n_angle, n_loc)
+
+
 @kernel
 def advance(
     front,
@@ -109,6 +119,7 @@ def advance(
     law,
     trials,
     memory,
+    control,
     waiting,
     counters,
     n_angle,
@@ -118,8 +129,9 @@ def advance(
     """Place particles until there are `limit` or the domain is full.
 
     Without a memory the choice is exhaustive, which with one orientation and one pair is the plain
-    advancing front method.
+    advancing front method. With a control, n_angle and n_loc are the most that it may spend.
     """
+    most_n_angle, most_n_loc = n_angle, n_loc
     places = waiting.size
     narrowest = min(domain.x_max - domain.x_min, domain.y_max - domain.y_min)
     while counters[N_PLACED] < limit and not counters[FINISHED]:
@@ -132,19 +144,29 @@ def advance(
             continue
         source = waiting[turn]
         offset = (supply.uniform[source] + GOLDEN_RATIO * counters[N_FAILED]) % 1.0
+        if control is not None:
+            effort = effort_now(control)
+            n_angle, n_loc = spend(control, effort, source, offset, most_n_angle, most_n_loc)
         draw_orientations(law, trials, n_angle, counters[N_PLACED], offset)
         particle = turn_and_inflate(supply, source, domain.clearance, trials, n_angle)
         if memory is None:
             status, x, y, i, k, angle = choose_exhaustively(
                 front, placed, grid, domain, trials, particle, n_angle, n_loc
             )
-        else:
+        elif control is None:
             status, x, y, i, k, angle = choose_lowest(
+                front, placed, grid, domain, trials, memory, particle, n_angle, n_loc
+            )
+        else:
+            status, x, y, i, k, angle = choose_by_reach(
                 front, placed, grid, domain, trials, memory, particle, n_angle, n_loc
             )
         if status == RESOLVED:
             at_right_wall = k == front_length(front) - 1
             number = counters[N_PLACED]
+            if control is not None:
+                account(control, supply, front, placed, domain, source, number, x, y, i, k)
+                control.tally[EFFORT_SUM] += effort
             store(
                 placed, front, grid, domain, supply, law, trials, source, number, x, y, angle, i, k
             )

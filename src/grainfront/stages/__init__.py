@@ -5,7 +5,7 @@ certificate that does not hold, end the job with one sentence.
 """
 
 from grainfront.stages.error_vs_time import error_vs_time, error_vs_time_picture
-from grainfront.stages.packing import kernels, packing, replacement, shapes, vtk
+from grainfront.stages.packing import kernels, packing, packing_to_target, replacement, shapes, vtk
 from grainfront.stages.results import contacts, figures, photograph, statistics
 from grainfront.stages.sources import SOURCES, sources_digest
 from grainfront.stages.sweep import contour, contour_picture, sweep
@@ -20,6 +20,7 @@ __all__ = [
     "figures",
     "kernels",
     "packing",
+    "packing_to_target",
     "photograph",
     "replacement",
     "shapes",

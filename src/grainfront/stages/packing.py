@@ -40,6 +40,37 @@ def packing(*, scene: str, database: str, seed: int, packing: str, timing: str) 
 
 
 @stage
+def packing_to_target(
+    *,
+    scene: str,
+    database: str,
+    seed: int,
+    contour: str | None,
+    packing: str,
+    target: str,
+    timing: str,
+) -> None:
+    """Pack the hulls of a database to the scene's target volume fraction, and keep the attempts.
+
+    A contour map of the scene, where it has one, tells the effort to start with.
+    """
+    from grainfront.files.atomic import write_text
+    from grainfront.files.contour import read_contour
+    from grainfront.files.netcdf import read_shapes
+
+    loaded = api.load_scene(scene)
+    effort = None if contour is None else api.effort_from_map(loaded, read_contour(contour))
+    with api.progress_bar() as progress:
+        packed, run_time, attempts = api.pack_to_target(
+            loaded, read_shapes(database), seed, progress, effort
+        )
+    api.write_packing(packing, packed, loaded, seed)
+    api.write_target(target, attempts, loaded, seed)
+    times = {"kernel_s": run_time.kernel_s, "compile_s": run_time.compile_s}
+    write_text(timing, json.dumps(times) + "\n")
+
+
+@stage
 def replacement(*, scene: str, database: str, seed: int, packing: str, nonconvex: str) -> None:
     """Give the hulls of a packing their outlines back."""
     from grainfront.files.netcdf import read_packing, read_shapes

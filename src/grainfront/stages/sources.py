@@ -6,13 +6,20 @@ import hashlib
 from pathlib import Path
 
 _PACKAGE = Path(__file__).parents[1]
-_ALWAYS = ("__init__", "api", "checked_yaml", "errors", "particles", "polygons", "scene", "stages")
+_ALWAYS = (
+    "__init__", "api", "checked_yaml", "errors", "particles", "polygons", "scene", "scene_packing",
+    "stages",
+)  # fmt: skip
 _FILES = ("files.atomic", "files.contract", "files.dataset", "files.header", "files.netcdf")
 _DATABASE = ("shapes.database", "shapes.descriptors")
 _LAWS = ("laws", "shapes.sources", *_ALWAYS)
 SOURCES = {
     "shapes": ("draw", "shapes", "laws", *_FILES, *_ALWAYS),
     "packing": ("draw", "geometry", "jit", "packing", *_DATABASE, *_FILES, *_LAWS),
+    "packing_to_target": (
+        "draw", "geometry", "jit", "packing", "files.contour", "files.target", *_DATABASE, *_FILES,
+        *_LAWS,
+    ),
     "replacement": ("geometry", "jit", "replacement", *_DATABASE, *_FILES, *_LAWS),
     "contacts": ("geometry", "jit", "statistics", *_FILES, *_LAWS),
     "statistics": (

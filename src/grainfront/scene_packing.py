@@ -1,0 +1,203 @@
+"""From a scene to its packing: particles drawn, hulls placed, a target volume fraction reached."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from grainfront.errors import InputError
+from grainfront.scene import Scene
+
+if TYPE_CHECKING:
+    from grainfront.draw import Coverage
+    from grainfront.packing.fraction import Attempts
+    from grainfront.packing.pack import RunTime
+    from grainfront.packing.prepare import State
+    from grainfront.particles import Packing
+    from grainfront.shapes.database import ShapeDatabase
+
+# Every stage draws from a generator of its own, so that none disturbs another.
+DRAW_STAGE, PACKING_STAGE = 1, 2
+# A domain is never full, so particles of its whole area would be enough if their mean area were
+# exact; the margin is for the scatter of that mean.
+AREA_MARGIN = 1.05
+# More particles than this are refused: their arrays would fill some 10 GB.
+MOST_PARTICLES = 5 * 10**7
+
+
+def pack(
+    scene: Scene,
+    database: ShapeDatabase,
+    seed: int,
+    progress: Callable[[int, float], None] | None = None,
+) -> tuple[Packing, RunTime]:
+    """Pack hulls of the database into the domain of the scene until it is full.
+
+    `seed` decides sizes, shapes and orientations: the same scene, database and seed give the same
+    packing, bit for bit. `progress` is told the particles placed and the volume fraction so far.
+    Raises InputError where no shape has the descriptor that is to follow a law, and where the
+    domain lies too far from the origin, or is too small or too large for the grains, and where the
+    scene's target volume fraction is not reached (see `pack_to_target`).
+    Source: Du et al. (2023), doi 10.1016/j.jrmge.2022.03.009, sections 3 and 4.
+    """
+    from grainfront.packing.pack import fill
+
+    if scene.target is not None:
+        return pack_to_target(scene, database, seed, progress)[:2]
+    empty = _empty(scene, database, seed, _generator(seed, PACKING_STAGE))
+    packing, run_time = fill(empty, database.descriptors["aspect_ratio"], progress)
+    _require_particles(scene, packing)
+    return packing, run_time
+
+
+def pack_to_target(
+    scene: Scene,
+    database: ShapeDatabase,
+    seed: int,
+    progress: Callable[[int, float], None] | None = None,
+    effort: float | None = None,
+) -> tuple[Packing, RunTime, Attempts]:
+    """Pack hulls so that the scene's target volume fraction is reached; the attempts it took.
+
+    The volume fraction is that of what the scene ends with: of the outlines, where it replaces
+    hulls. `effort`, from 0 (plain advancing front method) to 1 (n_angle and n_loc of the scene), is
+    a guess to start with. Raises InputError as `pack` does, and where the target is not reached,
+    with the volume fractions that are. Source: `grainfront.packing.fraction`.
+    """
+    from grainfront.packing.fraction import HALF_WAY, pack_to_fraction
+
+    assert scene.target is not None, "there is no target to be reached"
+    rng = _generator(seed, PACKING_STAGE)
+    packing, run_time, attempts = pack_to_fraction(
+        _empty(scene, database, seed, rng),
+        database.descriptors["aspect_ratio"],
+        database.descriptors["area" if scene.replacement else "hull_area"],
+        scene.target.volume_fraction,
+        scene.target.tolerance,
+        effort=HALF_WAY if effort is None else effort,
+        rng=rng,
+        progress=progress,
+    )
+    _require_particles(scene, packing)
+    if not attempts.reached:
+        raise InputError(_not_reached(scene, database, seed, attempts))
+    return packing, run_time, attempts
+
+
+def _not_reached(scene: Scene, database: ShapeDatabase, seed: int, attempts: Attempts) -> str:
+    """Why a target was missed, with what the scene reaches."""
+    assert scene.target is not None
+    area = database.descriptors["area" if scene.replacement else "hull_area"]
+    reached = []
+    for n_angle, n_loc in ((1, 1), (scene.packing.n_angle, scene.packing.n_loc)):
+        effort = dataclasses.replace(scene.packing, n_angle=n_angle, n_loc=n_loc)
+        plain = dataclasses.replace(scene, packing=effort, target=None)
+        packing, _ = pack(plain, database, seed)
+        reached.append(float(np.sum(area[packing.shape] * packing.size**2)) / scene.domain.area)
+    target = scene.target.volume_fraction
+    closest = min((f.volume_fraction for f in attempts.finishes), key=lambda f: abs(f - target))
+    return (
+        f"{scene.name}: target_volume_fraction is {target:g}, but this scene reaches "
+        f"{reached[0]:.4f} (n_angle and n_loc of 1) to {reached[1]:.4f} (n_angle "
+        f"{scene.packing.n_angle}, n_loc {scene.packing.n_loc}), and the closest of "
+        f"{len(attempts.finishes)} attempts {closest:.4f}, not within {scene.target.tolerance:g}"
+    )
+
+
+def _empty(scene: Scene, database: ShapeDatabase, seed: int, rng: np.random.Generator) -> State:
+    """The domain of the scene, without any particle yet, and the particles to be packed."""
+    from grainfront.packing.orientations import STEPS_A_BIN, orientation_law
+    from grainfront.packing.prepare import prepare
+
+    _require_resolved(scene)
+    shape_coverage(scene, database)
+    shape, size = _draw_enough(scene, database, seed)
+    effort, law = scene.packing, scene.orientation
+    return prepare(
+        database.hulls,
+        shape,
+        size,
+        orientation_law(
+            law.bins(effort.n_bin)[1], law.quantiles_within_support(STEPS_A_BIN * effort.n_bin)
+        ),
+        scene.domain,
+        effort.n_angle,
+        effort.n_loc,
+        rng,
+    )
+
+
+def _require_particles(scene: Scene, packing: Packing) -> None:
+    """Raise InputError where nothing was placed."""
+    if packing.x.size == 0:
+        raise InputError(
+            f"{scene.name}: no particle fits into the domain of {scene.domain.width:g} by "
+            f"{scene.domain.height:g} {scene.length_unit}: it must have room for the grains drawn"
+        )
+
+
+def _require_resolved(scene: Scene) -> None:
+    """Raise InputError where the rounding of coordinates would open the contacts of the grains."""
+    from grainfront.packing.state import CLEARANCE_ULPS
+    from grainfront.particles import CONTACT_TOLERANCE
+
+    domain = scene.domain
+    farthest = max(map(abs, (domain.x_min, domain.y_min, domain.x_max, domain.y_max)))
+    # the clearance between placed particles may take up half of a contact's tolerance
+    clearance = 0.5 * CONTACT_TOLERANCE * scene.size.moment(1)
+    allowed = clearance / (CLEARANCE_ULPS * float(np.spacing(1.0)))
+    if farthest > allowed:
+        raise InputError(
+            f"{scene.name}: domain reaches to a coordinate of {farthest:g}, but must stay within "
+            f"{allowed:.3g}, beyond which rounding spoils the contacts of grains of these sizes"
+        )
+
+
+def _draw_enough(scene: Scene, database: ShapeDatabase, seed: int) -> tuple[np.ndarray, np.ndarray]:
+    """Shapes and sizes of so many particles that they cannot all find a place."""
+    from grainfront.draw import draw_particles
+    from grainfront.packing.advance import WAITING_PLACES
+
+    hull_area = database.descriptors["hull_area"]
+    matched = None
+    if scene.matched is not None:
+        name, law = scene.matched
+        matched = database.descriptors[name], law
+    mean_area = float(hull_area.mean()) * scene.size.moment(2)
+    narrowest = min(scene.domain.width, scene.domain.height)
+    n = math.ceil(AREA_MARGIN * scene.domain.area / mean_area) + WAITING_PLACES
+    while n <= MOST_PARTICLES:
+        rng = _generator(seed, DRAW_STAGE)
+        shape, size = draw_particles(database.count, scene.size, n, rng, matched)
+        area = np.where(size <= narrowest, hull_area[shape] * size**2, 0.0)
+        largest = np.partition(area, -WAITING_PLACES)[-WAITING_PLACES:]
+        wanted = scene.domain.area + largest.sum()
+        if area.sum() >= wanted or not area.any():
+            return shape, size
+        n = math.ceil(AREA_MARGIN * n * wanted / area.sum())
+    raise InputError(
+        f"{scene.name}: a domain of {scene.domain.width:g} × {scene.domain.height:g} takes more "
+        f"than {MOST_PARTICLES:,} particles of these sizes to fill, but at most that many are "
+        "allowed"
+    )
+
+
+def _generator(seed: int, stage: int) -> np.random.Generator:
+    return np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(stage,)))
+
+
+def shape_coverage(scene: Scene, database: ShapeDatabase) -> Coverage | None:
+    """How far the shapes can follow the scene's law of a descriptor; None where there is none."""
+    from grainfront.draw import coverage
+
+    if scene.matched is None:
+        return None
+    name, law = scene.matched
+    try:
+        return coverage(database.descriptors[name], law)
+    except InputError as error:
+        raise InputError(f"{scene.name}: {name}: {error}") from None
