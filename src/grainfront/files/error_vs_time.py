@@ -89,13 +89,24 @@ DOMAIN: dict[str, Row] = {
     "kernel_s": KERNEL,
     "pareto": ("int64", SETTING, "1", FRONT.format("wall effect, at each effort by itself")),
 }
+TARGET: dict[str, Row] = {
+    "tolerance": ("double", SETTING, "1", "tolerance of the volume fraction"),
+    "prescribed": ("double", SETTING, "1", "volume fraction prescribed"),
+    "particles": PARTICLES,
+    "packings": ("int64", SEEDED, "1", "packings needed, the one that was kept among them"),
+    "volume_fraction": ("double", SEEDED, "1", FRACTION.format("hulls")),
+    "deviation": ("double", SEEDED, "1", "|volume fraction - volume fraction prescribed|"),
+    "kernel_s": ("double", TIMED, "s", "CPU time of the kernel in all packings, on one core"),
+    "pareto": ("int64", SETTING, "1", FRONT.format("deviation")),
+}
 CHECKS: dict[str, Row] = {
     "step": ("string", SETTING, "", "step from the scene to a certified packing and its files"),
     "share": ("double", SEEDED, "1", "share of the CPU time of all steps, of the median repeat"),
     "cpu_s": ("double", TIMED, "s", "CPU time of the step"),
 }
 AXES = {
-    "effort": EFFORT, "outlines": OUTLINES, "drawing": DRAWING, "domain": DOMAIN, "checks": CHECKS
+    "effort": EFFORT, "outlines": OUTLINES, "drawing": DRAWING, "domain": DOMAIN,
+    "target": TARGET, "checks": CHECKS,
 }  # fmt: skip
 
 # What is fitted to all domains of one effort.

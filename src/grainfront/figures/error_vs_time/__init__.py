@@ -12,6 +12,7 @@ from grainfront.figures.error_vs_time.domain import draw_domain
 from grainfront.figures.error_vs_time.drawing import draw_drawing
 from grainfront.figures.error_vs_time.effort import draw_effort
 from grainfront.figures.error_vs_time.outlines import draw_outlines
+from grainfront.figures.error_vs_time.target import draw_target
 from grainfront.figures.style import styled
 
 Quantities = Mapping[str, np.ndarray]
@@ -21,6 +22,7 @@ AXES: dict[str, Callable[[Figure, Quantities], None]] = {
     "outlines": draw_outlines,
     "drawing": draw_drawing,
     "domain": draw_domain,
+    "target": draw_target,
     "checks": draw_checks,
 }
 
