@@ -62,7 +62,8 @@ def searches(scene: Scene) -> list[str]:
 def estimated_seconds(scene: Scene, point: Point) -> float:
     """How long a packing of the sweep is likely to take on one core."""
     grains = VOLUME_FRACTION * scene.domain.area / (AREA_OF_HULL * scene.size.moment(2))
-    trials = point.n_angle * (2 * point.n_loc - 1)
+    front = scene.domain.width / scene.size.moment(1)
+    trials = point.n_angle * min(2 * point.n_loc - 1, front)
     trial = SECONDS_A_TRIAL[search_of(point.n_angle, point.n_loc)]
     return SECONDS_A_PACKING + grains * (SECONDS_A_GRAIN + trial * trials)
 
