@@ -15,7 +15,16 @@ from machine import description
 
 from grainfront.files.atomic import write_text
 
-SUBJECTS = ("kernels", "packings", "pruning", "growth", "checks", "effort", "compilation")
+SUBJECTS = (
+    "kernels",
+    "packings",
+    "pruning",
+    "growth",
+    "checks",
+    "effort",
+    "targets",
+    "compilation",
+)
 RESULTS = Path(__file__).with_name("results.md")
 
 

@@ -14,7 +14,8 @@ def test_a_quick_run_measures_every_subject():
     run = subprocess.run(command, capture_output=True, text=True, check=False)
     assert run.returncode == 0, run.stderr
     for title in (
-        "Kernels", "Packings", "Laws kept", "Pruning", "Growth", "Checks", "Effort", "Compilation",
+        "Kernels", "Packings", "Laws kept", "Pruning", "Growth", "Checks", "Effort", "Targets",
+        "Compilation",
     ):  # fmt: skip
         assert f"## {title}\n" in run.stdout
     assert "**no**" not in run.stdout, "pruned and exhaustive search chose differently"

@@ -23,12 +23,12 @@ from grainfront.packing.prepare import State
 # enough for many finishes to cost less than another packing. At least some rows, as high as the
 # mean particle is long.
 FINISH_SHARE, FINISH_ROWS = 0.15, 4.0
-# First guess of the solid missing along the top, in rows, times 1 + circumradius / inradius: long
-# particles leave larger hollows. Seen for rectangles of λ = 1.5 and 4 and for gravel; finishes tell
-# better.
-MISSING_ROW = 0.13
+# First guess of the solid missing along the top, in rows: so much times (circumradius /
+# inradius)^1.5, as long particles leave larger hollows, and no more than so many. Seen for
+# rectangles of λ = 1.5 and 4 (0.4 and 1.4 rows) and for gravel (0.36); finishes tell better.
+MISSING_ROWS, SLENDER_POWER, MOST_MISSING_ROWS = 0.165, 1.5, 2.0
 # Finishes may aim this far beside the rest of the packing, which is to stay even.
-MOST_LEAN = 0.03
+MOST_LEAN = 0.02
 
 
 @dataclass(frozen=True)
@@ -91,7 +91,8 @@ class Steering:
 
     def first_missing(self, target: float) -> float:
         """A guess of the solid missing along the top, as share of the domain."""
-        return MISSING_ROW * (1.0 + self.slenderness) * self.row * target
+        rows = MISSING_ROWS * self.slenderness**SLENDER_POWER
+        return min(rows, MOST_MISSING_ROWS) * self.row * target
 
     def control(self, aim: float, effort: float) -> Control:
         """A controller with random numbers of its own."""

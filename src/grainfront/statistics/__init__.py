@@ -10,7 +10,12 @@ from grainfront.statistics.distributions import (
     l2_error,
     orientation_rose,
 )
-from grainfront.statistics.fractions import void_ratio, volume_fraction, volume_fraction_bulk
+from grainfront.statistics.fractions import (
+    void_ratio,
+    volume_fraction,
+    volume_fraction_between,
+    volume_fraction_bulk,
+)
 from grainfront.statistics.segregation import SizeCorrelation, size_correlation
 from grainfront.statistics.summary import PackingStatistics, measure
 
@@ -30,5 +35,6 @@ __all__ = [
     "size_correlation",
     "void_ratio",
     "volume_fraction",
+    "volume_fraction_between",
     "volume_fraction_bulk",
 ]

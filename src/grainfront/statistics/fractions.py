@@ -44,6 +44,29 @@ def volume_fraction_bulk(packing: Packing) -> float:
     return float(area / ((x_max - x_min) * (y_max - y_min)))
 
 
+def volume_fraction_between(packing: Packing, axis: int, low: float, high: float) -> float:
+    """Volume fraction between two lines across an axis (0: x, 1: y) of the domain.
+
+    By Green's theorem, the area of a polygon between x = a and x = b is the integral over its
+    boundary of min(max(x, a), b) dy.
+    """
+    domain = packing.domain
+    nodes, offsets = packing.polygons.nodes, packing.polygons.offsets
+    after = np.arange(1, len(nodes) + 1)
+    after[offsets[1:] - 1] = offsets[:-1]
+    first, last = np.sort([nodes[:, axis], nodes[after, axis]], axis=0)
+    # clipping bends an edge at the two lines at most, and the trapezium rule is exact in between
+    bends = np.array([first, np.clip(low, first, last), np.clip(high, first, last), last])
+    clipped = np.clip(bends, low, high)
+    length = last - first
+    integral = np.sum(np.diff(bends, axis=0) * (clipped[1:] + clipped[:-1]) / 2, axis=0)
+    mean = np.divide(integral, length, out=clipped[0].copy(), where=length > 0)
+    across = nodes[after, 1 - axis] - nodes[:, 1 - axis]
+    # counter-clockwise, the area is the integral of x dy, or of −y dx
+    area = float(np.sum(mean * across)) * (1 if axis == 0 else -1)
+    return area / ((high - low) * (domain.height if axis == 0 else domain.width))
+
+
 def void_ratio(volume_fraction: float) -> float:
     """Area of the voids over the area of the particles, (1 − φ)/φ."""
     return (1.0 - volume_fraction) / volume_fraction
