@@ -1,4 +1,4 @@
-"""Draw the pictures of the README from the scene river_gravel: `python docs/make_images.py`."""
+"""Draw the pictures of README and docs from shipped scenes: `python docs/make_images.py`."""
 
 from __future__ import annotations
 
@@ -9,7 +9,9 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from grainfront import api, figures
+from grainfront.files.contour import Contour
 from grainfront.shapes.images import find_outlines
+from grainfront.studies import sweep
 
 ROOT = Path(__file__).parents[1]
 IMAGES = Path(__file__).parent / "images"
@@ -18,7 +20,7 @@ COLOURS = 256  # a palette: a third of the bytes
 
 
 def main() -> None:
-    """Pack the gravel and draw the photograph and the packing."""
+    """Pack the gravel and draw the photograph and the packing; draw a contour map."""
     scene = api.load_scene(ROOT / "config" / "scenes" / "river_gravel.yaml")
     database = api.build_shapes(scene)
     packing, _ = api.pack(scene, database, scene.seeds[0])
@@ -34,9 +36,29 @@ def main() -> None:
             length_unit=scene.length_unit,
             volume_fractions=[api.volume_fractions(each)[0] for each in (packing, outlines)],
         ),
+        "contour": contour_map(),
     }
     for name, figure in draw.items():
         save_small(figure, IMAGES / f"{name}.png")
+
+
+def contour_map() -> Figure:
+    """Pack the sweep of contour_rectangles."""
+    scene = api.load_scene(ROOT / "config" / "scenes" / "contour_rectangles.yaml")
+    assert scene.target is not None
+    efforts, seeds = sweep.sweep_of(scene), sweep.seeds(scene)
+    database = api.build_shapes(scene)
+    numbers = dict(sweep.pack_points(scene, database, sweep.points(scene), threads=2))
+    found = Contour.of(
+        efforts.n_angle, efforts.n_loc, seeds, lambda *point: numbers[sweep.Point(*point)]
+    )
+    return figures.contour(
+        found.n_angle,
+        found.n_loc,
+        found.volume_fraction,
+        seeds=len(seeds),
+        target=scene.target.volume_fraction,
+    )
 
 
 def save_small(figure: Figure, path: Path) -> None:

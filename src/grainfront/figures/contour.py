@@ -56,7 +56,8 @@ def _draw_map(
     levels = MaxNLocator(N_LEVELS).tick_values(fraction.min(), fraction.max())
     filled = axes.contourf(x, y, fraction, levels, cmap=COLOURS)
     lines = axes.contour(x, y, fraction, levels, colors=INK, linewidths=0.4)
-    axes.clabel(lines, fontsize=6)
+    for label in axes.clabel(lines, fontsize=6):
+        label.set_clip_on(False)
     figure.colorbar(filled, ax=axes, label="volume fraction")
     places = np.meshgrid(x, y, indexing="ij")
     axes.plot(*places, ".", color=INK, markersize=3, clip_on=False)

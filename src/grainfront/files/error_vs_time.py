@@ -24,6 +24,9 @@ TIMED = ("seed", "repeat")
 KERNEL = ("double", TIMED, "s", "CPU time of the packing kernel, on one core")
 PARTICLES = ("int64", SEEDED, "1", "particles placed")
 FRACTION = "area of the {} over area of the domain"
+DELIVERED = (
+    "double", SEEDED, "1", FRACTION.format("outlines, or of the hulls where none replace them")
+)  # fmt: skip
 FRONT = "1 on the Pareto front of time and {}, 0 elsewhere"
 E2 = "L2 distribution error E2 of the {}, in 24 bins"
 OF_SHAPES = "mean over the shapes of |{0} / {0} of the reference - 1|"
@@ -48,9 +51,7 @@ OUTLINES: dict[str, Row] = {
         for name in ("area", "perimeter", "aspect_ratio", "circularity", "convexity")
     },
     "particles": PARTICLES,
-    "volume_fraction": (
-        "double", SEEDED, "1", FRACTION.format("outlines, or of the hulls where none replace them")
-    ),
+    "volume_fraction": DELIVERED,
     "volume_fraction_error": (
         "double", SEEDED, "1", "|volume fraction - that of the reference for the same seed|"
     ),
@@ -93,8 +94,8 @@ TARGET: dict[str, Row] = {
     "tolerance": ("double", SETTING, "1", "tolerance of the volume fraction"),
     "prescribed": ("double", SETTING, "1", "volume fraction prescribed"),
     "particles": PARTICLES,
-    "packings": ("int64", SEEDED, "1", "packings needed, the one that was kept among them"),
-    "volume_fraction": ("double", SEEDED, "1", FRACTION.format("hulls")),
+    "packings": ("double", SEEDED, "1", "whole packings that would take as many placements"),
+    "volume_fraction": DELIVERED,
     "deviation": ("double", SEEDED, "1", "|volume fraction - volume fraction prescribed|"),
     "kernel_s": ("double", TIMED, "s", "CPU time of the kernel in all packings, on one core"),
     "pareto": ("int64", SETTING, "1", FRONT.format("deviation")),

@@ -6,6 +6,7 @@ import hashlib
 import json
 import shutil
 from collections.abc import Sequence
+from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -69,8 +70,10 @@ def _pack(
     folder.mkdir(parents=True, exist_ok=True)
     files = {point: folder / f"{'_'.join(map(str, point))}.json" for point in points}
     missing = [point for point in points if not files[point].exists()]
-    for point, numbers in pack_points(scene, read_shapes(database), missing, threads):
-        write_text(files[point], json.dumps(numbers) + "\n")
+    # closed at once where a file cannot be written: the packings that wait are not begun
+    with closing(pack_points(scene, read_shapes(database), missing, threads)) as packed:
+        for point, numbers in packed:
+            write_text(files[point], json.dumps(numbers) + "\n")
     return {point: json.loads(file.read_text()) for point, file in files.items()}
 
 

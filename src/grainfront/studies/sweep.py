@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import heapq
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from itertools import product
 from typing import TYPE_CHECKING, NamedTuple
@@ -92,7 +92,7 @@ def chunks(scene: Scene, count: int) -> list[list[Point]]:
 
 def pack_points(
     scene: Scene, database: ShapeDatabase, wanted: Sequence[Point], threads: int
-) -> Iterator[tuple[Point, dict[str, float]]]:
+) -> Generator[tuple[Point, dict[str, float]], None, None]:
     """Pack and measure points of a sweep, several at a time; each comes as soon as it is there.
 
     What comes with a point are the numbers that `measure_point` gives.

@@ -15,7 +15,7 @@ from grainfront import api
 from grainfront.laws import Constant, Histogram, Lognormal, Normal, Uniform, stratified
 from grainfront.particles import Rectangle
 from grainfront.polygons import Polygons
-from grainfront.scene import ErrorVsTime, PackingEffort, scene_schema
+from grainfront.scene import ErrorVsTime, PackingEffort, Target, scene_schema
 from grainfront.shapes.database import standardised_database
 from grainfront.shapes.sources import FourierGrains, LabelMasks, Rectangles
 from grainfront.studies.error_vs_time import AXES, measure_axes
@@ -29,6 +29,7 @@ from grainfront.studies.error_vs_time.drawing import (
 from grainfront.studies.error_vs_time.effort import measure_effort
 from grainfront.studies.error_vs_time.outlines import measure_outlines, reference_outlines
 from grainfront.studies.error_vs_time.record import pareto_front
+from grainfront.studies.error_vs_time.target import measure_target
 
 SEEDS = [3, 4]
 TINY = Path(__file__).parents[3] / "config/scenes/tiny.yaml"
@@ -260,3 +261,29 @@ def test_the_axes_listed_are_measured_with_seeds_from_the_scenes_first(scene, da
 def test_every_axis_of_the_schema_has_its_study():
     axes = scene_schema()["properties"]["error_vs_time"]["properties"]["axes"]["items"]["enum"]
     assert set(AXES) == set(axes)
+
+
+def test_a_target_is_reached_within_every_tolerance(scene, database):
+    sized = replace(scene, domain=Rectangle(0.0, 0.0, 30.0, 30.0))
+    record = measure_target(sized, database, SEEDS, 1)
+    shapes_of(record, 1)
+    tolerance, prescribed = record.settings["tolerance"], record.settings["prescribed"]
+    assert tolerance.tolist() == [0.01, 0.003], "finer ones than the share of a grain are left out"
+    fraction = record.results["volume_fraction"]
+    assert (np.abs(fraction - prescribed[:, None]) <= tolerance[:, None]).all()
+    assert np.array_equal(record.results["deviation"], np.abs(fraction - prescribed[:, None]))
+    assert (record.results["packings"] >= 1.0).all()
+    ends = [api.pack(s, database, SEEDS[0])[0] for s in (sized, plain_of(sized))]
+    dense, loose = (api.volume_fractions(api.replace(p, database))[0] for p in ends)
+    assert loose < prescribed[0] < dense
+
+
+def test_a_target_is_the_scenes_own_where_it_has_one(scene, database):
+    aimed = replace(scene, domain=Rectangle(0.0, 0.0, 30.0, 30.0), target=Target(0.73, 0.001))
+    record = measure_target(aimed, database, SEEDS[:1], 1)
+    assert set(record.settings["prescribed"]) == {0.73}
+
+
+def plain_of(scene):
+    """The scene by the plain advancing front method."""
+    return replace(scene, packing=PackingEffort(1, 1, 24))

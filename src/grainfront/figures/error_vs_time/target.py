@@ -28,7 +28,7 @@ def draw_target(figure: Figure, found: Quantities) -> None:
     left.set_xscale("log")
     left.set_ylim(0.0, float(found["packings"].max()) + 1.0)
     left.set_xlabel("tolerance of the volume fraction")
-    left.set_ylabel("packings needed")
+    left.set_ylabel("packings needed, in whole packings")
     powers_of_ten(right)
     marks(right, kernel_s, deviation, PRESCRIBED, label="left to the target")
     right.plot(medians(kernel_s), tolerance, "_", color=INK, markersize=9, label="tolerance")

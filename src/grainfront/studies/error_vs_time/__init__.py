@@ -16,12 +16,14 @@ from grainfront.studies.error_vs_time.drawing import measure_drawing
 from grainfront.studies.error_vs_time.effort import measure_effort
 from grainfront.studies.error_vs_time.outlines import measure_outlines
 from grainfront.studies.error_vs_time.record import AxisRecord
+from grainfront.studies.error_vs_time.target import measure_target
 
 AXES: dict[str, Callable[[Scene, ShapeDatabase, Sequence[int], int], AxisRecord]] = {
     "effort": measure_effort,
     "outlines": measure_outlines,
     "drawing": measure_drawing,
     "domain": measure_domain,
+    "target": measure_target,
     "checks": measure_checks,
 }
 

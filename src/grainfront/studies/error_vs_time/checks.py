@@ -17,7 +17,7 @@ from grainfront.scene import Scene
 from grainfront.shapes.database import ShapeDatabase
 from grainfront.statistics import find_contacts
 from grainfront.studies.error_vs_time.record import AxisRecord
-from grainfront.studies.error_vs_time.runs import plain
+from grainfront.studies.error_vs_time.runs import without_target
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -33,7 +33,7 @@ def measure_checks(
     up, the shapes counted with each packing, although one scene needs them once. Of the repeats
     the median counts.
     """
-    scene = plain(scene)
+    scene = without_target(scene)
     _steps(scene, database, seeds[0])
     runs = [[_steps(scene, database, seed) for seed in seeds] for _ in range(repeats)]
     names = list(runs[0][0])

@@ -15,9 +15,8 @@ from grainfront.polygons import Polygons
 from grainfront.scene import Scene
 from grainfront.shapes.database import ShapeDatabase, standardised_database
 from grainfront.shapes.sources import FourierGrains
-from grainfront.statistics import volume_fraction
 from grainfront.studies.error_vs_time.record import AxisRecord, over_points, pareto_front
-from grainfront.studies.error_vs_time.runs import Point, plain, run
+from grainfront.studies.error_vs_time.runs import Point, delivered_fraction, run, without_target
 
 # Vertices of the reference, and the fewest, on average, that still make a grain.
 REFERENCE_VERTICES = 500
@@ -50,7 +49,7 @@ def measure_outlines(
             tolerances.append(tolerance)
             databases.append(standardised_database(simplified, {}))
         tolerance *= FINER
-    found = run([Point(plain(scene), one) for one in databases], seeds, repeats, _observe)
+    found = run([Point(without_target(scene), one) for one in databases], seeds, repeats, _observe)
     errors = _errors_of_shape(databases)
     fraction = found.numbers["volume_fraction"]
     return AxisRecord(
@@ -118,6 +117,7 @@ def _values(database: ShapeDatabase, size: np.ndarray) -> dict[str, np.ndarray]:
 
 
 def _observe(point: Point, packing: Packing) -> dict[str, float]:
-    if point.scene.replacement:
-        packing = api.replace(packing, point.database)
-    return {"particles": packing.x.size, "volume_fraction": volume_fraction(packing)}
+    return {
+        "particles": packing.x.size,
+        "volume_fraction": delivered_fraction(point, packing),
+    }

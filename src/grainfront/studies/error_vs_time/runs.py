@@ -12,6 +12,7 @@ from grainfront import api
 from grainfront.particles import Packing, Rectangle
 from grainfront.scene import PackingEffort, Scene
 from grainfront.shapes.database import ShapeDatabase
+from grainfront.statistics import volume_fraction
 
 
 class Point(NamedTuple):
@@ -56,7 +57,7 @@ def run(
     return Runs({n: np.array([[one[n] for one in row] for row in rows]) for n in names}, kernel_s)
 
 
-def plain(scene: Scene) -> Scene:
+def without_target(scene: Scene) -> Scene:
     """The scene packed at its own effort, without a target that would change it."""
     return replace(scene, target=None)
 
@@ -64,7 +65,14 @@ def plain(scene: Scene) -> Scene:
 def with_effort(scene: Scene, n_angle: int, n_loc: int, n_bin: int | None = None) -> Scene:
     """The scene at another effort, and with other orientation bins if they are given."""
     n_bin = n_bin or scene.packing.n_bin
-    return replace(plain(scene), packing=PackingEffort(n_angle, n_loc, n_bin))
+    return replace(without_target(scene), packing=PackingEffort(n_angle, n_loc, n_bin))
+
+
+def delivered_fraction(point: Point, packing: Packing) -> float:
+    """Volume fraction of the outlines, where the scene replaces hulls, or else of the hulls."""
+    if point.scene.replacement:
+        packing = api.replace(packing, point.database)
+    return volume_fraction(packing)
 
 
 def scaled_domain(domain: Rectangle, factor: float) -> Rectangle:
