@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from grainfront.jit import compiling
-from grainfront.packing.control import make_control
+from grainfront.packing.control import exponents, make_control
 from grainfront.packing.pack import RunTime
 from grainfront.packing.prepare import State, as_packing
 from grainfront.packing.steering import MOST_LEAN, Finish, Steering
@@ -74,10 +74,12 @@ def pack_to_fraction(
     with compiling("controlled search") as compilation:
         make_ready(empty, particle_area)
     steering = Steering(empty, particle_area, rng)
-    missing = steering.first_missing(target)
+    # what the top lacks differs from start to start: the next expects the mean of those before
+    lacked = [steering.first_missing(target)]
     finishes: list[Finish] = []
     best, closest = empty, math.inf
     for number in range(MOST_STARTS):
+        missing = float(np.mean(lacked))
         start = steering.start(number, target + missing, effort, progress)
         seen: list[float] = []
         for _ in range(MOST_FINISHES):
@@ -91,6 +93,7 @@ def pack_to_fraction(
             if closest <= tolerance or _stuck(finishes, number, target):
                 break
         effort = start.settled
+        lacked.append(missing)
         hopeless = closest > OUT_OF_LUCK * tolerance
         if closest <= tolerance or (hopeless and _spent(effort, finish.volume_fraction < target)):
             break
@@ -132,17 +135,15 @@ def effort_from_map(
 ) -> float:
     """The effort that leads to a target, from a map of volume fractions over n_angle and n_loc.
 
-    `volume_fraction` has the shape (n_angle.size, n_loc.size), both ascending. An effort p stands
-    for n_angle = most_n_angle^p and n_loc = most_n_loc^p, between whose values the map is
-    interpolated over the logarithms.
+    `volume_fraction` has the shape (n_angle.size, n_loc.size), both ascending; it is interpolated
+    over the logarithms.
     """
     effort = np.linspace(0.0, 1.0, 101)
-    at_n_loc = np.array(
-        [np.interp(effort * np.log(most_n_loc), np.log(n_loc), row) for row in volume_fraction]
-    )
-    along = [
-        np.interp(p * np.log(most_n_angle), np.log(n_angle), column)
-        for p, column in zip(effort, at_n_loc.T, strict=True)
-    ]
+    along = []
+    for of_angle, of_loc in map(exponents, effort):
+        at_n_loc = [
+            np.interp(of_loc * np.log(most_n_loc), np.log(n_loc), row) for row in volume_fraction
+        ]
+        along.append(np.interp(of_angle * np.log(most_n_angle), np.log(n_angle), at_n_loc))
     # a map has noise: the first effort from which on the target is reached
     return float(effort[np.argmax(np.maximum.accumulate(along) >= min(target, np.max(along)))])

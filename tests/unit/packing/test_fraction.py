@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from grainfront.packing.control import exponents
 from grainfront.packing.fraction import AT_END, effort_from_map, pack_to_fraction
 from grainfront.packing.orientations import orientation_law
 from grainfront.packing.pack import fill
@@ -97,11 +98,19 @@ def test_finishes_continue_the_shared_part():
 @settings(max_examples=50)
 @given(p=st.floats(0.0, 1.0), rise=st.floats(0.05, 0.3))
 def test_an_effort_is_read_off_a_map(p, rise):
-    """Of a map that rises along the efforts alone: φ = 0.6 + rise × effort."""
+    """Of a map that is linear in the logarithms: φ = 0.6 + rise × (mean of the two powers)."""
     n_angle, n_loc = np.array([1, 3, 9, 24]), np.array([1, 2, 8, 20])
     along = np.add.outer(np.log(n_angle) / np.log(24), np.log(n_loc) / np.log(20)) / 2.0
-    found = effort_from_map(n_angle, n_loc, 0.6 + rise * along, 24, 20, 0.6 + rise * p)
+    target = 0.6 + rise * sum(exponents(p)) / 2.0
+    found = effort_from_map(n_angle, n_loc, 0.6 + rise * along, 24, 20, target)
     assert found == pytest.approx(p, abs=0.011)
+
+
+def test_more_effort_never_means_fewer_trials():
+    powers = np.array([exponents(p) for p in np.linspace(0.0, 1.0, 201)])
+    assert np.all(np.diff(powers, axis=0) >= 0.0)
+    assert powers[0].tolist() == [0.0, 0.0]
+    assert powers[-1].tolist() == [1.0, 1.0]
 
 
 def test_beyond_a_map_its_ends_are_taken():
