@@ -146,6 +146,8 @@ def trial(folder: Path) -> None:
         require(code == 0, "the second run finishes what the first left", said)
         require("packing of seed" not in said, "finished packings are not packed again", said)
         require("Trying to restart job" in said, "the killed job is run again", said)
+        compiled = list((folder / "kernels").rglob("*.nbc"))
+        require(bool(compiled), "jobs compile the kernels into the folder they are told", said)
         print(f"  second run, resumed, its killed job repeated: {time.monotonic() - started:.0f} s")
         columns = "--format=%.5i %.10T %.4C %.8m %.8M  %k"
         subprocess.run(["squeue", "--states=all", "--sort=i", columns], env=environment)
