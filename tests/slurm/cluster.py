@@ -114,11 +114,25 @@ def wait_until(ready: list[str], environment: dict[str, str], wanted: str, log: 
     raise SystemExit(f"{ready[0]} did not answer {wanted!r} in {PATIENCE_S} s; see {log}.")
 
 
+def cancel_jobs(environment: dict[str, str]) -> None:
+    """Cancel all jobs and wait for their end, without which their guards would stay behind."""
+    subprocess.run(["scancel", "--user=root"], env=environment, capture_output=True, timeout=30)
+    end = time.monotonic() + PATIENCE_S
+    while time.monotonic() < end:
+        queue = subprocess.run(
+            ["squeue", "--noheader"], env=environment, capture_output=True, text=True, timeout=30
+        )
+        if not queue.stdout.strip():
+            return
+        time.sleep(0.5)
+
+
 @contextlib.contextmanager
 def cluster(folder: Path) -> Iterator[dict[str, str]]:
     """Run munged, slurmctld and slurmd; the environment in which Slurm's commands find them.
 
-    The daemons are stopped at the end, whatever happens, and even where this process is killed.
+    Jobs and daemons are stopped at the end, whatever happens; where this process itself is killed,
+    the daemons are.
     """
     configuration = write_configuration(folder)
     path = f"{srun_of_this_cluster(folder, configuration)}:{os.environ['PATH']}"
@@ -146,12 +160,10 @@ def cluster(folder: Path) -> Iterator[dict[str, str]]:
         wait_until(["sinfo", "--noheader", "--format=%T"], environment, "idle", log)
         yield environment
     finally:
-        stop = ["scancel", "--signal=KILL", "--full", "--user=root"]
         if len(running) == 3:
-            subprocess.run(stop, env=environment, capture_output=True, timeout=30)
-        for daemon in reversed(running):
+            cancel_jobs(environment)
+        for daemon in reversed(running):  # each while those that it talks to are there
             daemon.terminate()
-        for daemon in reversed(running):
             with contextlib.suppress(subprocess.TimeoutExpired):
                 daemon.wait(timeout=15)
             daemon.kill()

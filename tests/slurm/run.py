@@ -1,8 +1,9 @@
 """A trial of the workflow on a Slurm cluster of one machine: make test-slurm.
 
-A sweep and a scene of several seeds are built on this machine, and again through the cluster. There
-a job of the sweep is killed (SIGKILL), which ends that run; the next run resumes, and loses a job
-again (scancel), which it repeats. All result files must come out the same, byte for byte.
+A sweep with a packing to a target, and a scene of several seeds, are built on this machine, and
+again through the cluster. There a job of the sweep is killed (SIGKILL), which ends that run; the
+next run resumes, and loses a job again (scancel), which it repeats. All result files must come out
+the same, byte for byte.
 """
 
 from __future__ import annotations
@@ -144,8 +145,10 @@ def trial(folder: Path) -> None:
         started = time.monotonic()
         code, said = run_and_kill(there, [], environment, by="scancel")
         require(code == 0, "the second run finishes what the first left", said)
-        require("packing of seed" not in said, "finished packings are not packed again", said)
+        require("tiny: packing of seed" not in said, "finished packings are not packed again", said)
         require("Trying to restart job" in said, "the killed job is run again", said)
+        compiled = list((folder / "kernels").rglob("*.nbc"))
+        require(bool(compiled), "jobs compile the kernels into the folder they are told", said)
         print(f"  second run, resumed, its killed job repeated: {time.monotonic() - started:.0f} s")
         columns = "--format=%.5i %.10T %.4C %.8m %.8M  %k"
         subprocess.run(["squeue", "--states=all", "--sort=i", columns], env=environment)
