@@ -63,7 +63,7 @@ def _prepared(scene: Scene, database: ShapeDatabase, exhaustively: bool) -> Stat
         law.bins(effort.n_bin)[1], law.quantiles_within_support(effort.n_bin * STEPS_A_BIN)
     )
     state = prepare(
-        database.hulls, shape, size, orientations, scene.domain, effort.n_angle, effort.n_loc, rng
+        database.hulls, shape, size, [orientations], scene.domain, effort.n_angle, effort.n_loc, rng
     )
     return state._replace(memory=None) if exhaustively else state
 

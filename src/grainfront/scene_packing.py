@@ -121,9 +121,11 @@ def _empty(scene: Scene, database: ShapeDatabase, seed: int, rng: np.random.Gene
         database.hulls,
         shape,
         size,
-        orientation_law(
-            law.bins(effort.n_bin)[1], law.quantiles_within_support(STEPS_A_BIN * effort.n_bin)
-        ),
+        [
+            orientation_law(
+                law.bins(effort.n_bin)[1], law.quantiles_within_support(STEPS_A_BIN * effort.n_bin)
+            )
+        ],
         scene.domain,
         effort.n_angle,
         effort.n_loc,

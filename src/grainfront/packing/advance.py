@@ -5,6 +5,7 @@ from __future__ import annotations
 from grainfront.geometry.placing import place_polygon
 from grainfront.jit import inlined, kernel
 from grainfront.packing import PRUNED_FROM_N_LOC
+from grainfront.packing.arranged import law_at, nth_other_law, rough_centre
 from grainfront.packing.control import EFFORT_SUM, account, effort_now, spend
 from grainfront.packing.exhaustive import choose_exhaustively
 from grainfront.packing.front import bury, front_length, move_gap
@@ -18,17 +19,18 @@ from grainfront.packing.trials import RESOLVED, TOO_HIGH
 # grain not to end the packing, few enough not to bend the size law.
 WAITING_PLACES = 8
 
-# What the loop remembers between calls. PARKED of the waiting particles found no place in a whole
-# row, without the top being the reason: too wide for the domain, say. They are left for later rows.
-N_PLACED, N_DRAWN, N_TOO_LARGE, N_WAITING, TURN, PARKED, N_FAILED = range(7)
-PLACED_IN_ROW, TOO_HIGH_IN_ROW, FINISHED, N_COUNTERS = range(7, 11)
+# What the loop remembers between calls; LAW and TURN: of whose waiting particles it tries which.
+N_PLACED, N_TOO_LARGE, LAW, TURN, REGIONS_TRIED, N_FAILED = range(6)
+PLACED_IN_ROW, TOO_HIGH_IN_ROW, FINISHED, N_COUNTERS = range(6, 10)
 # Each failure moves the random offset of the next trial orientations on by the golden ratio, so
 # that a particle that is tried again is tried in other orientations.
 GOLDEN_RATIO = 0.6180339887498949
 
 
 @inlined
-def store(placed, front, grid, domain, supply, law, trials, source, number, x, y, angle, i, k):
+def store(
+    placed, front, grid, domain, supply, laws, trials, source, row, number, x, y, angle, i, k
+):
     """Make the chosen trial, uninflated, a placed particle and a member of the front."""
     shape = supply.shape[source]
     size = supply.size[source]
@@ -45,68 +47,107 @@ def store(placed, front, grid, domain, supply, law, trials, source, number, x, y
     placed.disc[number, 3] = supply.inradius[shape] * size
     placed.orientation[number] = trials.orientation[angle]
     placed.source[number] = source
-    law.placed[trials.bin[angle]] += 1
+    laws.placed[row, trials.bin[angle]] += 1
     insert(grid, domain, number, x, y, placed.disc[number, 2])
     bury(front, i, k, number)
 
 
 @inlined
-def end_row(front, counters, n_waiting_places, supply_left):
+def exhausted(queues, law):
+    """Whether a law has no particle left that might find a place."""
+    if queues.parked[law] == queues.waiting.shape[1]:
+        return True
+    drawn_out = queues.drawn[law] == queues.last[law]
+    return drawn_out and queues.parked[law] == queues.n_waiting[law]
+
+
+@inlined
+def end_row(front, queues, counters):
     """Begin a new row at the left wall, or finish where the last one placed nothing."""
-    if counters[PLACED_IN_ROW] > 0:
-        counters[PARKED] = 0
-    elif counters[TOO_HIGH_IN_ROW] == 0 and counters[PARKED] < counters[N_WAITING]:
-        counters[PARKED] += 1
-    else:
-        counters[FINISHED] = 1
-    if counters[PARKED] == n_waiting_places or (
-        counters[PARKED] == counters[N_WAITING] and not supply_left
-    ):
+    parked_more = False
+    left = False
+    for law in range(queues.last.size):
+        if counters[PLACED_IN_ROW] > 0:
+            queues.parked[law] = 0
+        elif counters[TOO_HIGH_IN_ROW] == 0 and queues.parked[law] < queues.n_waiting[law]:
+            queues.parked[law] += 1
+            parked_more = True
+        if not exhausted(queues, law):
+            left = True
+    if not left or (counters[PLACED_IN_ROW] == 0 and not parked_more):
         counters[FINISHED] = 1
     counters[PLACED_IN_ROW] = 0
     counters[TOO_HIGH_IN_ROW] = 0
-    counters[TURN] = counters[PARKED]
     move_gap(front, 1)
 
 
 @inlined
-def pass_on(front, counters, n_waiting_places, supply_left):
+def pass_on(front, queues, counters):
     """Move on by one member of the front."""
     if front.member[front.ends[1]] == RIGHT_WALL:
-        end_row(front, counters, n_waiting_places, supply_left)
+        end_row(front, queues, counters)
     else:
-        counters[TURN] = counters[PARKED]
         move_gap(front, front.ends[0] + 1)
 
 
 @inlined
-def draw_next(waiting, counters, supply, narrowest):
+def draw_next(queues, counters, law, supply, narrowest):
     """Draw a particle to wait for its turn; true where it is too wide for the domain: left over."""
-    source = counters[N_DRAWN]
-    counters[N_DRAWN] += 1
+    source = queues.drawn[law]
+    queues.drawn[law] += 1
     if supply.size[source] > narrowest:
         counters[N_TOO_LARGE] += 1
         return True
-    waiting[counters[N_WAITING]] = source
-    counters[N_WAITING] += 1
+    queues.waiting[law, queues.n_waiting[law]] = source
+    queues.n_waiting[law] += 1
     return False
 
 
 @inlined
-def take_from_waiting(waiting, counters, turn):
+def take_from_waiting(queues, law, turn):
     """Remove a particle that has been placed from those that wait."""
-    counters[N_WAITING] -= 1
-    for n in range(turn, counters[N_WAITING]):
-        waiting[n] = waiting[n + 1]
-    counters[TURN] = counters[PARKED]
+    queues.n_waiting[law] -= 1
+    for n in range(turn, queues.n_waiting[law]):
+        queues.waiting[law, n] = queues.waiting[law, n + 1]
 
 
 @inlined
-def choose_by_reach(front, placed, grid, domain, trials, memory, particle, n_angle, n_loc):
+def begin_turn(front, placed, domain, arrangement, queues, counters):
+    """Choose whose particles are tried first at the gap: those of the rough centre's region."""
+    counters[REGIONS_TRIED] = 0
+    if arrangement is not None:
+        x, y = rough_centre(front, placed, domain)
+        counters[LAW] = law_at(arrangement, x, y)
+    counters[TURN] = queues.parked[counters[LAW]]
+
+
+@inlined
+def next_region(front, placed, domain, arrangement, queues, counters):
+    """Turn to the particles of another region at the same gap; false where all have been tried."""
+    if arrangement is None:
+        return False
+    counters[REGIONS_TRIED] += 1
+    x, y = rough_centre(front, placed, domain)
+    law = nth_other_law(arrangement, counters[REGIONS_TRIED], x, y)
+    if law < 0:
+        return False
+    counters[LAW] = law
+    counters[TURN] = queues.parked[law]
+    return True
+
+
+@inlined
+def choose_by_reach(
+    front, placed, grid, domain, trials, memory, arrangement, law, particle, n_angle, n_loc
+):
     """The resolved trial of least potential energy, pruned where the local front is long enough."""
     if n_loc >= PRUNED_FROM_N_LOC:
-        return choose_lowest(front, placed, grid, domain, trials, memory, particle, n_angle, n_loc)
-    return choose_exhaustively(front, placed, grid, domain, trials, particle, n_angle, n_loc)
+        return choose_lowest(
+            front, placed, grid, domain, trials, memory, arrangement, law, particle, n_angle, n_loc
+        )
+    return choose_exhaustively(
+        front, placed, grid, domain, trials, arrangement, law, particle, n_angle, n_loc
+    )
 
 
 @kernel
@@ -116,11 +157,12 @@ def advance(
     grid,
     domain,
     supply,
-    law,
+    laws,
     trials,
     memory,
     control,
-    waiting,
+    arrangement,
+    queues,
     counters,
     n_angle,
     n_loc,
@@ -129,38 +171,46 @@ def advance(
     """Place particles until there are `limit` or the domain is full.
 
     Without a memory the choice is exhaustive, which with one orientation and one pair is the plain
-    advancing front method. With a control, n_angle and n_loc are the most that it may spend.
+    advancing front method. With a control, n_angle and n_loc are the most that it may spend. With
+    an arrangement, particles are drawn by where the rough centre lies, the mean of the two chosen
+    boundaries, and placed where their region is (paper, Pseudocode 7).
     """
     most_n_angle, most_n_loc = n_angle, n_loc
-    places = waiting.size
+    places = queues.waiting.shape[1]
     narrowest = min(domain.x_max - domain.x_min, domain.y_max - domain.y_min)
+    if counters[N_PLACED] == 0:
+        begin_turn(front, placed, domain, arrangement, queues, counters)
     while counters[N_PLACED] < limit and not counters[FINISHED]:
-        turn = counters[TURN]
-        supply_left = counters[N_DRAWN] < supply.size.size
-        if turn == counters[N_WAITING] and (turn == places or not supply_left):
-            pass_on(front, counters, places, supply_left)
+        law, turn = counters[LAW], counters[TURN]
+        waiting = queues.n_waiting[law]
+        if turn == waiting and (turn == places or queues.drawn[law] == queues.last[law]):
+            if not next_region(front, placed, domain, arrangement, queues, counters):
+                pass_on(front, queues, counters)
+                begin_turn(front, placed, domain, arrangement, queues, counters)
             continue
-        if turn == counters[N_WAITING] and draw_next(waiting, counters, supply, narrowest):
+        if turn == waiting and draw_next(queues, counters, law, supply, narrowest):
             continue
-        source = waiting[turn]
+        source = queues.waiting[law, turn]
         offset = (supply.uniform[source] + GOLDEN_RATIO * counters[N_FAILED]) % 1.0
         if control is not None:
             effort = effort_now(control)
             n_angle, n_loc = spend(control, effort, source, offset, most_n_angle, most_n_loc)
-        draw_orientations(law, trials, n_angle, counters[N_PLACED], offset)
+        draw_orientations(laws, law, trials, n_angle, queues.n_placed[law], offset)
         particle = turn_and_inflate(supply, source, domain.clearance, trials, n_angle)
         if memory is None:
             status, x, y, i, k, angle = choose_exhaustively(
-                front, placed, grid, domain, trials, particle, n_angle, n_loc
+                front, placed, grid, domain, trials, arrangement, law, particle, n_angle, n_loc
             )
         elif control is None:
             status, x, y, i, k, angle = choose_lowest(
-                front, placed, grid, domain, trials, memory, particle, n_angle, n_loc
-            )
+                front, placed, grid, domain, trials, memory, arrangement, law, particle,
+                n_angle, n_loc,
+            )  # fmt: skip
         else:
             status, x, y, i, k, angle = choose_by_reach(
-                front, placed, grid, domain, trials, memory, particle, n_angle, n_loc
-            )
+                front, placed, grid, domain, trials, memory, arrangement, law, particle,
+                n_angle, n_loc,
+            )  # fmt: skip
         if status == RESOLVED:
             at_right_wall = k == front_length(front) - 1
             number = counters[N_PLACED]
@@ -168,17 +218,21 @@ def advance(
                 account(control, supply, front, placed, domain, source, number, x, y, i, k)
                 control.tally[EFFORT_SUM] += effort
             store(
-                placed, front, grid, domain, supply, law, trials, source, number, x, y, angle, i, k
-            )
+                placed, front, grid, domain, supply, laws, trials, source, law, number, x, y,
+                angle, i, k,
+            )  # fmt: skip
             counters[N_PLACED] += 1
             counters[PLACED_IN_ROW] += 1
-            take_from_waiting(waiting, counters, turn)
+            queues.n_placed[law] += 1
+            take_from_waiting(queues, law, turn)
             if at_right_wall:
-                end_row(front, counters, places, supply_left)
+                end_row(front, queues, counters)
+            begin_turn(front, placed, domain, arrangement, queues, counters)
             continue
         counters[N_FAILED] += 1
         if status == TOO_HIGH:
             counters[TOO_HIGH_IN_ROW] += 1
             counters[TURN] += 1
-        else:
-            pass_on(front, counters, places, supply_left)
+        elif not next_region(front, placed, domain, arrangement, queues, counters):
+            pass_on(front, queues, counters)
+            begin_turn(front, placed, domain, arrangement, queues, counters)

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 
 from grainfront.jit import inlined
+from grainfront.packing.arranged import admitted
 from grainfront.packing.front import front_length
 from grainfront.packing.state import Trial
 from grainfront.packing.trials import BLOCKED, RESOLVED, TOO_HIGH, resolve
@@ -34,7 +35,9 @@ def lower(best, trial):
 
 
 @inlined
-def choose_exhaustively(front, placed, grid, domain, trials, particle, n_angle, n_loc):
+def choose_exhaustively(
+    front, placed, grid, domain, trials, arrangement, law, particle, n_angle, n_loc
+):
     """The resolved trial of least potential energy: (status, x, y, i, k, angle)."""
     count, circumradius, inradius = particle
     first = max(front.ends[0] - n_loc, 0)
@@ -46,5 +49,7 @@ def choose_exhaustively(front, placed, grid, domain, trials, particle, n_angle, 
             outcome, x, y, at_i, at_k = resolve(
                 front, placed, grid, domain, trials, trial, i, i + 1
             )
+            if arrangement is not None:
+                outcome = admitted(arrangement, law, outcome, x, y)
             best = lower(best, (outcome, x, y, at_i, at_k, angle))
     return best

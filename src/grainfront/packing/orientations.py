@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
 from grainfront.jit import inlined
-from grainfront.packing.state import OrientationLaw
+from grainfront.packing.state import OrientationLaw, OrientationLaws
 
 # The quantile table of an orientation law holds this many steps a bin.
 STEPS_A_BIN = 256
 
 
 def orientation_law(probabilities: np.ndarray, quantile: np.ndarray) -> OrientationLaw:
-    """The law of the orientations as the kernel takes it, with nothing placed yet.
+    """The law of the orientations as a table.
 
     `probabilities`, (n_bin,), are those of equal bins of the law's support; `quantile`,
     (n_table,), the orientations in degrees at equally spaced probabilities over the support. A step
@@ -23,25 +24,35 @@ def orientation_law(probabilities: np.ndarray, quantile: np.ndarray) -> Orientat
     probabilities = probabilities / probabilities.sum()
     cumulative = np.concatenate([[0.0], np.cumsum(probabilities)])
     bin_width = (quantile[-1] - quantile[0]) / probabilities.size
-    return OrientationLaw(
-        probabilities, cumulative, quantile, bin_width, np.zeros(probabilities.size, dtype=np.int64)
+    return OrientationLaw(probabilities, cumulative, quantile, bin_width)
+
+
+def orientation_laws(laws: Sequence[OrientationLaw]) -> OrientationLaws:
+    """Laws as the kernel takes them, with nothing placed yet."""
+    probability = np.stack([law.probability for law in laws])
+    return OrientationLaws(
+        probability,
+        np.stack([law.cumulative for law in laws]),
+        np.stack([law.quantile for law in laws]),
+        np.array([law.largest_rise for law in laws]),
+        np.zeros(probability.shape, dtype=np.int64),
     )
 
 
 @inlined
-def draw_orientations(law, trials, n_angle, n_placed, uniform):
+def draw_orientations(laws, row, trials, n_angle, n_placed, uniform):
     """Draw `n_angle` orientations in [0, 180) by systematic sampling of the bins' deficits.
 
     The deficit of a bin is what it lacks once one more particle is placed; bins that have their
     share already offer nothing.
     """
-    n_bin = law.probability.size
+    n_bin = laws.probability.shape[1]
     trials.weight[0] = 0.0
     for b in range(n_bin):
-        deficit = law.probability[b] * (n_placed + 1) - law.placed[b]
+        deficit = laws.probability[row, b] * (n_placed + 1) - laws.placed[row, b]
         trials.weight[b + 1] = trials.weight[b] + max(deficit, 0.0)
     step = trials.weight[n_bin] / n_angle
-    last = law.quantile.size - 1
+    last = laws.quantile.shape[1] - 1
     b = 0
     for a in range(n_angle):
         target = (a + uniform) * step
@@ -51,12 +62,13 @@ def draw_orientations(law, trials, n_angle, n_placed, uniform):
             b -= 1  # rounding has led past the last deficit
         within = (target - trials.weight[b]) / (trials.weight[b + 1] - trials.weight[b])
         within = min(max(within, 0.0), 1.0)
-        u = law.cumulative[b] + within * (law.cumulative[b + 1] - law.cumulative[b])
+        below = laws.cumulative[row, b]
+        u = below + within * (laws.cumulative[row, b + 1] - below)
         i = min(int(u * last), last - 1)
-        low = law.quantile[i]
-        rise = law.quantile[i + 1] - low
+        low = laws.quantile[row, i]
+        rise = laws.quantile[row, i + 1] - low
         part = u * last - i
-        if rise > law.largest_rise:
+        if rise > laws.largest_rise[row]:
             part = round(part)  # nothing between: a gap of the law
         orientation = low + part * rise
         orientation -= 180.0 * math.floor(orientation / 180.0)

@@ -50,7 +50,7 @@ def pack_hulls(
     n_angle = n_loc = 1 this is the plain advancing front method. Source: Du et al. (2023),
     sections 3 and 4.
     """
-    empty = prepare(hulls, shape, size, orientation, domain, n_angle, n_loc, rng)
+    empty = prepare(hulls, shape, size, [orientation], domain, n_angle, n_loc, rng)
     return fill(empty, aspect_ratio, progress)
 
 

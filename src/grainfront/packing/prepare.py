@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -14,14 +15,15 @@ from grainfront.packing.advance import (
     N_COUNTERS,
     N_PLACED,
     N_TOO_LARGE,
-    N_WAITING,
     WAITING_PLACES,
     advance,
 )
+from grainfront.packing.arranged import Arrangement
 from grainfront.packing.control import Control
 from grainfront.packing.front import make_front
 from grainfront.packing.grid import make_grid
 from grainfront.packing.memory import Memory, make_memory
+from grainfront.packing.orientations import orientation_laws
 from grainfront.packing.scout import SCOUT_CORNERS
 from grainfront.packing.state import (
     CLEARANCE_ULPS,
@@ -30,7 +32,9 @@ from grainfront.packing.state import (
     Front,
     Grid,
     OrientationLaw,
+    OrientationLaws,
     Placed,
+    Queues,
     Supply,
     Trials,
 )
@@ -46,11 +50,12 @@ class State(NamedTuple):
     grid: Grid
     domain: Domain
     supply: Supply
-    law: OrientationLaw
+    laws: OrientationLaws
     trials: Trials
     memory: Memory | None
     control: Control | None
-    waiting: np.ndarray
+    arrangement: Arrangement | None
+    queues: Queues
     counters: np.ndarray
     n_angle: int
     n_loc: int
@@ -85,8 +90,8 @@ class State(NamedTuple):
             front=Front(*(array.copy() for array in self.front)),
             placed=Placed(*(array.copy() for array in self.placed)),
             grid=Grid(*(array.copy() for array in self.grid)),
-            law=self.law._replace(placed=self.law.placed.copy()),
-            waiting=self.waiting.copy(),
+            laws=self.laws._replace(placed=self.laws.placed.copy()),
+            queues=Queues(*(array.copy() for array in self.queues)),
             counters=self.counters.copy(),
         )
 
@@ -107,14 +112,21 @@ def prepare(
     hulls: Polygons,
     shape: np.ndarray,
     size: np.ndarray,
-    orientation: OrientationLaw,
+    orientation: Sequence[OrientationLaw],
     domain: Rectangle,
     n_angle: int,
     n_loc: int,
     rng: np.random.Generator,
+    arrangement: Arrangement | None = None,
+    counts: Sequence[int] | None = None,
 ) -> State:
-    """An empty packing with all its arrays; see `pack_hulls`."""
+    """An empty packing with all its arrays; see `pack_hulls`.
+
+    With an arrangement, each of its laws has an `orientation` and `counts` particles, one law's
+    after the other's.
+    """
     n = size.size
+    last = np.cumsum([n] if counts is None else counts)
     walls = _domain(domain)
     supply = _supply(hulls, shape, size, rng)
     circumradius = supply.circumradius[shape] * size
@@ -132,20 +144,33 @@ def prepare(
         grid=make_grid(walls, circumradius.min(), circumradius.max(), n),
         domain=walls,
         supply=supply,
-        law=orientation._replace(placed=np.zeros_like(orientation.placed)),
+        laws=orientation_laws(orientation),
         trials=Trials(
             nodes=np.empty((nodes_of_trials, 2)),
             reach=np.empty((n_angle + 1, 4)),
             orientation=np.empty(n_angle),
             bin=np.empty(n_angle, dtype=np.int64),
-            weight=np.empty(orientation.probability.size + 1),
+            weight=np.empty(orientation[0].probability.size + 1),
         ),
         memory=make_memory(n_angle, n_loc) if search_of(n_angle, n_loc) == "pruned" else None,
         control=None,
-        waiting=np.empty(WAITING_PLACES, dtype=np.int64),
+        arrangement=arrangement,
+        queues=_queues(last),
         counters=np.zeros(N_COUNTERS, dtype=np.int64),
         n_angle=n_angle,
         n_loc=n_loc,
+    )
+
+
+def _queues(last: np.ndarray) -> Queues:
+    waiting, parked, placed = np.zeros((3, last.size), dtype=np.int64)
+    return Queues(
+        drawn=np.concatenate([[0], last[:-1]]),
+        last=last,
+        waiting=np.empty((last.size, WAITING_PLACES), dtype=np.int64),
+        n_waiting=waiting,
+        parked=parked,
+        n_placed=placed,
     )
 
 
@@ -190,5 +215,5 @@ def as_packing(state: State, aspect_ratio: np.ndarray) -> Packing:
         area=polygon_areas(supply.hull_nodes, supply.hull_offsets)[shape] * size**2,
         circumradius=circumradius,
         shape=shape,
-        left_over=int(state.counters[N_WAITING] + state.counters[N_TOO_LARGE]),
+        left_over=int(state.queues.n_waiting.sum() + state.counters[N_TOO_LARGE]),
     )

@@ -14,6 +14,7 @@ import numpy as np
 
 from grainfront.geometry.contact import contact_from_guess
 from grainfront.jit import inlined
+from grainfront.packing.arranged import admitted
 from grainfront.packing.exhaustive import NO_TRIAL, lower
 from grainfront.packing.front import front_length, member_at
 from grainfront.packing.memory import WIDTHS, contact_from_tangent, remember_tangent
@@ -117,7 +118,9 @@ def sort_pairs(memory, n_pairs):
 
 
 @inlined
-def choose_lowest(front, placed, grid, domain, trials, memory, particle, n_angle, n_loc):
+def choose_lowest(
+    front, placed, grid, domain, trials, memory, arrangement, law, particle, n_angle, n_loc
+):
     """The resolved trial of least potential energy: (status, x, y, i, k, angle)."""
     count, circumradius, inradius = particle
     memory.step[0] += 1
@@ -138,5 +141,7 @@ def choose_lowest(front, placed, grid, domain, trials, memory, particle, n_angle
             outcome, x, y, at_i, at_k = resolve_below(
                 front, placed, grid, domain, trials, trial, memory, base, i, i + 1, best[2]
             )
+            if arrangement is not None:
+                outcome = admitted(arrangement, law, outcome, x, y)
             best = lower(best, (outcome, x, y, at_i, at_k, angle))
     return best

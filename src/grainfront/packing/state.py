@@ -51,7 +51,31 @@ class OrientationLaw(NamedTuple):
     cumulative: np.ndarray  # (n_bin + 1,)
     quantile: np.ndarray  # (n_table,) at equally spaced probabilities from 0 to 1
     largest_rise: float  # of the table between neighbours, in degrees; beyond it lies a gap
-    placed: np.ndarray  # (n_bin,) how many particles each bin has so far
+
+
+class OrientationLaws(NamedTuple):
+    """Orientation laws in rows: see `OrientationLaw`; all have as many bins."""
+
+    probability: np.ndarray  # (n_laws, n_bin)
+    cumulative: np.ndarray  # (n_laws, n_bin + 1)
+    quantile: np.ndarray  # (n_laws, n_table)
+    largest_rise: np.ndarray  # (n_laws,)
+    placed: np.ndarray  # (n_laws, n_bin) how many particles each bin has so far
+
+
+class Queues(NamedTuple):
+    """Particles of each law that are yet to be drawn from the supply, and those that wait.
+
+    Of the waiting, the first `parked` found no place in a whole row, without the top being the
+    reason: too wide for the domain, say. They are left for later rows.
+    """
+
+    drawn: np.ndarray  # (n_laws,) the next particle of the law in the supply
+    last: np.ndarray  # (n_laws,) one past its last
+    waiting: np.ndarray  # (n_laws, places)
+    n_waiting: np.ndarray  # (n_laws,)
+    parked: np.ndarray  # (n_laws,)
+    n_placed: np.ndarray  # (n_laws,)
 
 
 class Placed(NamedTuple):

@@ -25,7 +25,7 @@ def steered(corners, particles, seed, aim=0.75):
         Polygons.of([hull]),
         np.zeros(size.size, dtype=np.int64),
         size,
-        orientation_law(np.full(12, 1 / 12), np.linspace(0.0, 180.0, 3073)),
+        [orientation_law(np.full(12, 1 / 12), np.linspace(0.0, 180.0, 3073))],
         Rectangle(-1.0, 2.0, 6.0, 9.0),
         6,
         4,

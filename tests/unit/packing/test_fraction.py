@@ -30,7 +30,7 @@ def empty(aspect_ratio, seed):
         Polygons.of([hull]),
         np.zeros(size.size, dtype=np.int64),
         size,
-        orientation_law(np.full(24, 1 / 24), np.linspace(0.0, 180.0, 24 * 256 + 1)),
+        [orientation_law(np.full(24, 1 / 24), np.linspace(0.0, 180.0, 24 * 256 + 1))],
         Rectangle(0.0, 0.0, SIDE, SIDE),
         24,
         20,

@@ -213,7 +213,7 @@ def test_the_front_keeps_its_members_and_their_slots_in_step():
     rng = np.random.default_rng(0)
     n = 400
     state = prepare(
-        hulls, np.zeros(n, dtype=np.int64), rng.uniform(0.5, 1.0, n), orientation_law(*UNIFORM),
+        hulls, np.zeros(n, dtype=np.int64), rng.uniform(0.5, 1.0, n), [orientation_law(*UNIFORM)],
         square_domain(12.0), 6, 5, rng,
     )  # fmt: skip
     for limit in range(0, 60, 3):

@@ -49,7 +49,7 @@ def prepare_family(family, side, seed, n_angle, n_loc, smallest=0.5):
     n = int(1.2 * side**2 / mean_area) + 50
     law = orientation_law(np.full(24, 1 / 24), np.linspace(0.0, 180.0, 6145))
     return prepare(
-        hulls, rng.integers(0, hulls.count, n), rng.uniform(smallest, 2.0, n), law,
+        hulls, rng.integers(0, hulls.count, n), rng.uniform(smallest, 2.0, n), [law],
         Rectangle(0.0, 0.0, side, side), n_angle, n_loc, rng,
     )  # fmt: skip
 
