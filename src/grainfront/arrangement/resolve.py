@@ -37,6 +37,11 @@ class Resolved(NamedTuple):
     polygon: shapely.Geometry
     window: Rectangle
 
+    def within(self, domain: Rectangle) -> shapely.Geometry:
+        """The part of the zone that lies in the domain."""
+        box = shapely.box(domain.x_min, domain.y_min, domain.x_max, domain.y_max)
+        return _polygons_of(shapely.intersection(self.polygon, box))
+
 
 class Motion(NamedTuple):
     """The similarity z → turn · z + shift of the complex plane."""

@@ -11,6 +11,9 @@ from dataclasses import dataclass
 
 Point = tuple[float, float]
 
+# A path of this beginning names an image that ships inside scikit-image, not a file.
+SHIPPED = "skimage:"
+
 
 @dataclass(frozen=True)
 class Circle:
