@@ -5,6 +5,7 @@ from grainfront.laws.law import Law, bin_of
 from grainfront.laws.limits import require_possible
 from grainfront.laws.stratified import stratified
 from grainfront.laws.tables import Constant, GradingCurve, Histogram
+from grainfront.laws.truncated import Truncated
 
 __all__ = [
     "Beta",
@@ -16,6 +17,7 @@ __all__ = [
     "Law",
     "Lognormal",
     "Normal",
+    "Truncated",
     "Uniform",
     "Weibull",
     "bin_of",

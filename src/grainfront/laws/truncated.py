@@ -1,0 +1,51 @@
+"""Any law, cut to a range and renormalised."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from grainfront.laws.families import LEAST_SHARE_KEPT
+from grainfront.laws.law import Law, require, require_finite
+
+
+@dataclass(frozen=True)
+class Truncated(Law):
+    """The `law` on condition that values lie within [`minimum`, `maximum`]; None leaves an end.
+
+    Raises InputError where next to nothing of the law lies there.
+    """
+
+    law: Law
+    minimum: float | None = None
+    maximum: float | None = None
+
+    def __post_init__(self) -> None:
+        require_finite(minimum=self.minimum, maximum=self.maximum)
+        below, up_to = self._kept()
+        lower = -np.inf if self.minimum is None else self.minimum
+        upper = np.inf if self.maximum is None else self.maximum
+        require(
+            up_to - below >= LEAST_SHARE_KEPT,
+            f"the range from {lower:g} to {upper:g} holds {max(up_to - below, 0.0):.1g} of the "
+            f"law, but must hold at least {LEAST_SHARE_KEPT:g}",
+        )
+
+    def _kept(self) -> tuple[float, float]:
+        """Shares of the law below the minimum and up to the maximum."""
+        below = 0.0
+        if self.minimum is not None:
+            below = float(self.law.cdf(np.nextafter(self.minimum, -np.inf)))
+        return below, 1.0 if self.maximum is None else float(self.law.cdf(self.maximum))
+
+    def quantile(self, u: ArrayLike) -> np.ndarray:
+        below, up_to = self._kept()
+        values = self.law.quantile(below + np.asarray(u, dtype=np.float64) * (up_to - below))
+        # rounding must not pass the ends
+        return np.clip(values, self.minimum, self.maximum)
+
+    def cdf(self, x: ArrayLike) -> np.ndarray:
+        below, up_to = self._kept()
+        return np.clip((self.law.cdf(x) - below) / (up_to - below), 0.0, 1.0)
