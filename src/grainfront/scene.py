@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from grainfront import laws
+from grainfront.arrangement.regions import Arrangement
 from grainfront.checked_yaml import parse_checked, read_text
 from grainfront.errors import InputError
 from grainfront.laws import Law
@@ -106,6 +107,7 @@ class Scene:
     error_vs_time: ErrorVsTime | None
     replacement: bool
     outputs: tuple[str, ...]
+    arrangement: Arrangement | None = None
 
 
 def scene_schema() -> dict[str, Any]:

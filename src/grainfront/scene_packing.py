@@ -14,10 +14,13 @@ from grainfront.scene import Scene
 
 if TYPE_CHECKING:
     from grainfront.draw import Coverage
+    from grainfront.laws import Law
     from grainfront.packing.fraction import Attempts
     from grainfront.packing.pack import RunTime
     from grainfront.packing.prepare import State
+    from grainfront.packing.state import OrientationLaw
     from grainfront.particles import Packing
+    from grainfront.scene_regions import RegionLaws
     from grainfront.shapes.database import ShapeDatabase
 
 # Every stage draws from a generator of its own, so that none disturbs another.
@@ -25,6 +28,8 @@ DRAW_STAGE, PACKING_STAGE = 1, 2
 # A domain is never full, so particles of its whole area would be enough if their mean area were
 # exact; the margin is for the scatter of that mean.
 AREA_MARGIN = 1.05
+# The largest size that is reckoned with is exceeded by this share of the particles, at most.
+SMALLEST_SHARE = 2.0**-53
 # More particles than this are refused: their arrays would fill some 10 GB.
 MOST_PARTICLES = 5 * 10**7
 
@@ -110,27 +115,65 @@ def _not_reached(scene: Scene, database: ShapeDatabase, seed: int, attempts: Att
 
 def _empty(scene: Scene, database: ShapeDatabase, seed: int, rng: np.random.Generator) -> State:
     """The domain of the scene, without any particle yet, and the particles to be packed."""
-    from grainfront.packing.orientations import STEPS_A_BIN, orientation_law
     from grainfront.packing.prepare import prepare
 
     _require_resolved(scene)
     shape_coverage(scene, database)
-    shape, size = _draw_enough(scene, database, seed)
-    effort, law = scene.packing, scene.orientation
+    if scene.arrangement is not None:
+        return _empty_arranged(scene, database, seed, rng)
+    shape, size = _draw_enough(scene, database, scene, scene.domain.area, (seed, DRAW_STAGE))
+    effort = scene.packing
     return prepare(
         database.hulls,
         shape,
         size,
-        [
-            orientation_law(
-                law.bins(effort.n_bin)[1], law.quantiles_within_support(STEPS_A_BIN * effort.n_bin)
-            )
-        ],
+        [_orientation(scene, scene.orientation)],
         scene.domain,
         effort.n_angle,
         effort.n_loc,
         rng,
     )
+
+
+def _empty_arranged(
+    scene: Scene, database: ShapeDatabase, seed: int, rng: np.random.Generator
+) -> State:
+    """As `_empty`, with particles for each law of the arrangement."""
+    from grainfront import scene_regions
+    from grainfront.packing.arranged import arrangement_of
+    from grainfront.packing.prepare import prepare
+
+    found = scene_regions.plan(scene)
+    drawn = [
+        _draw_enough(scene, database, law, law.area, (seed, DRAW_STAGE, number))
+        for number, law in enumerate(found.laws)
+    ]
+    shape, size = (np.concatenate(parts) for parts in zip(*drawn, strict=True))
+    last = np.cumsum([one.size for _, one in drawn])
+    effort = scene.packing
+    empty = prepare(
+        database.hulls,
+        shape,
+        size,
+        [_orientation(scene, law.orientation) for law in found.laws],
+        scene.domain,
+        effort.n_angle,
+        effort.n_loc,
+        rng,
+        arrangement_of(found.regions, np.array([law.region for law in found.laws])),
+        last,
+        float(scene.size.quantile(1.0 - SMALLEST_SHARE)),
+    )
+    hull_area = float(database.descriptors["hull_area"].mean())
+    return empty._replace(keeper=scene_regions.keeper(scene, found, last, size, hull_area))
+
+
+def _orientation(scene: Scene, law: Law) -> OrientationLaw:
+    """The table of an orientation law that the kernel takes."""
+    from grainfront.packing.orientations import STEPS_A_BIN, orientation_law
+
+    n_bin = scene.packing.n_bin
+    return orientation_law(law.bins(n_bin)[1], law.quantiles_within_support(STEPS_A_BIN * n_bin))
 
 
 def _require_particles(scene: Scene, packing: Packing) -> None:
@@ -159,28 +202,34 @@ def _require_resolved(scene: Scene) -> None:
         )
 
 
-def _draw_enough(scene: Scene, database: ShapeDatabase, seed: int) -> tuple[np.ndarray, np.ndarray]:
-    """Shapes and sizes of so many particles that they cannot all find a place."""
+def _draw_enough(
+    scene: Scene,
+    database: ShapeDatabase,
+    laws: Scene | RegionLaws,
+    area: float,
+    key: tuple[int, ...],
+) -> tuple[np.ndarray, np.ndarray]:
+    """Shapes and sizes of so many particles that they cannot all find a place in an area."""
     from grainfront.draw import draw_particles
     from grainfront.packing.advance import WAITING_PLACES
 
     hull_area = database.descriptors["hull_area"]
     matched = None
-    if scene.matched is not None:
-        name, law = scene.matched
+    if laws.matched is not None:
+        name, law = laws.matched
         matched = database.descriptors[name], law
-    mean_area = float(hull_area.mean()) * scene.size.moment(2)
+    mean_area = float(hull_area.mean()) * laws.size.moment(2)
     narrowest = min(scene.domain.width, scene.domain.height)
-    n = math.ceil(AREA_MARGIN * scene.domain.area / mean_area) + WAITING_PLACES
+    n = math.ceil(AREA_MARGIN * area / mean_area) + WAITING_PLACES
     while n <= MOST_PARTICLES:
-        rng = _generator(seed, DRAW_STAGE)
-        shape, size = draw_particles(database.count, scene.size, n, rng, matched)
-        area = np.where(size <= narrowest, hull_area[shape] * size**2, 0.0)
-        largest = np.partition(area, -WAITING_PLACES)[-WAITING_PLACES:]
-        wanted = scene.domain.area + largest.sum()
-        if area.sum() >= wanted or not area.any():
+        rng = _generator(*key)
+        shape, size = draw_particles(database.count, laws.size, n, rng, matched)
+        of_each = np.where(size <= narrowest, hull_area[shape] * size**2, 0.0)
+        largest = np.partition(of_each, -WAITING_PLACES)[-WAITING_PLACES:]
+        wanted = area + largest.sum()
+        if of_each.sum() >= wanted or not of_each.any():
             return shape, size
-        n = math.ceil(AREA_MARGIN * n * wanted / area.sum())
+        n = math.ceil(AREA_MARGIN * n * wanted / of_each.sum())
     raise InputError(
         f"{scene.name}: a domain of {scene.domain.width:g} × {scene.domain.height:g} takes more "
         f"than {MOST_PARTICLES:,} particles of these sizes to fill, but at most that many are "
@@ -188,8 +237,8 @@ def _draw_enough(scene: Scene, database: ShapeDatabase, seed: int) -> tuple[np.n
     )
 
 
-def _generator(seed: int, stage: int) -> np.random.Generator:
-    return np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(stage,)))
+def _generator(seed: int, *stage: int) -> np.random.Generator:
+    return np.random.default_rng(np.random.SeedSequence(seed, spawn_key=stage))
 
 
 def shape_coverage(scene: Scene, database: ShapeDatabase) -> Coverage | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from grainfront.geometry.placing import place_polygon
 from grainfront.jit import inlined, kernel
 from grainfront.packing import PRUNED_FROM_N_LOC
-from grainfront.packing.arranged import law_at, nth_other_law, rough_centre
+from grainfront.packing.arranged import law_at, nth_other_law, pass_over, rough_centre
 from grainfront.packing.control import EFFORT_SUM, account, effort_now, spend
 from grainfront.packing.exhaustive import choose_exhaustively
 from grainfront.packing.front import bury, front_length, move_gap
@@ -21,7 +21,8 @@ WAITING_PLACES = 8
 
 # What the loop remembers between calls; LAW and TURN: of whose waiting particles it tries which.
 N_PLACED, N_TOO_LARGE, LAW, TURN, REGIONS_TRIED, N_FAILED = range(6)
-PLACED_IN_ROW, TOO_HIGH_IN_ROW, FINISHED, N_COUNTERS = range(6, 10)
+PLACED_IN_ROW, TOO_HIGH_IN_ROW, FINISHED = range(6, 9)
+N_COUNTERS = 12
 # Each failure moves the random offset of the next trial orientations on by the golden ratio, so
 # that a particle that is tried again is tried in other orientations.
 GOLDEN_RATIO = 0.6180339887498949
@@ -112,22 +113,22 @@ def take_from_waiting(queues, law, turn):
 
 
 @inlined
-def begin_turn(front, placed, domain, arrangement, queues, counters):
+def begin_turn(front, placed, domain, arrangement, queues, counters, n_loc):
     """Choose whose particles are tried first at the gap: those of the rough centre's region."""
     counters[REGIONS_TRIED] = 0
     if arrangement is not None:
-        x, y = rough_centre(front, placed, domain)
+        x, y = rough_centre(front, placed, domain, queues, counters, n_loc)
         counters[LAW] = law_at(arrangement, x, y)
     counters[TURN] = queues.parked[counters[LAW]]
 
 
 @inlined
-def next_region(front, placed, domain, arrangement, queues, counters):
+def next_region(front, placed, domain, arrangement, queues, counters, n_loc):
     """Turn to the particles of another region at the same gap; false where all have been tried."""
     if arrangement is None:
         return False
     counters[REGIONS_TRIED] += 1
-    x, y = rough_centre(front, placed, domain)
+    x, y = rough_centre(front, placed, domain, queues, counters, n_loc)
     law = nth_other_law(arrangement, counters[REGIONS_TRIED], x, y)
     if law < 0:
         return False
@@ -179,14 +180,14 @@ def advance(
     places = queues.waiting.shape[1]
     narrowest = min(domain.x_max - domain.x_min, domain.y_max - domain.y_min)
     if counters[N_PLACED] == 0:
-        begin_turn(front, placed, domain, arrangement, queues, counters)
+        begin_turn(front, placed, domain, arrangement, queues, counters, n_loc)
     while counters[N_PLACED] < limit and not counters[FINISHED]:
         law, turn = counters[LAW], counters[TURN]
         waiting = queues.n_waiting[law]
         if turn == waiting and (turn == places or queues.drawn[law] == queues.last[law]):
-            if not next_region(front, placed, domain, arrangement, queues, counters):
+            if not next_region(front, placed, domain, arrangement, queues, counters, n_loc):
                 pass_on(front, queues, counters)
-                begin_turn(front, placed, domain, arrangement, queues, counters)
+                begin_turn(front, placed, domain, arrangement, queues, counters, n_loc)
             continue
         if turn == waiting and draw_next(queues, counters, law, supply, narrowest):
             continue
@@ -212,6 +213,8 @@ def advance(
                 n_angle, n_loc,
             )  # fmt: skip
         if status == RESOLVED:
+            if arrangement is not None:
+                pass_over(front, queues, counters, i, k)
             at_right_wall = k == front_length(front) - 1
             number = counters[N_PLACED]
             if control is not None:
@@ -227,12 +230,14 @@ def advance(
             take_from_waiting(queues, law, turn)
             if at_right_wall:
                 end_row(front, queues, counters)
-            begin_turn(front, placed, domain, arrangement, queues, counters)
+            begin_turn(front, placed, domain, arrangement, queues, counters, n_loc)
             continue
         counters[N_FAILED] += 1
+        if arrangement is not None:
+            pass_over(front, queues, counters, -1, -1)
         if status == TOO_HIGH:
             counters[TOO_HIGH_IN_ROW] += 1
             counters[TURN] += 1
-        elif not next_region(front, placed, domain, arrangement, queues, counters):
+        elif not next_region(front, placed, domain, arrangement, queues, counters, n_loc):
             pass_on(front, queues, counters)
-            begin_turn(front, placed, domain, arrangement, queues, counters)
+            begin_turn(front, placed, domain, arrangement, queues, counters, n_loc)

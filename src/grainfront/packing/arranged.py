@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
 
 from grainfront.geometry.regions import RegionMap, region_of, stratum_in
 from grainfront.jit import inlined
-from grainfront.packing.front import member_at
-from grainfront.packing.state import BOTTOM_WALL, LEFT_WALL, RIGHT_WALL
+from grainfront.packing.front import front_length, member_at, position_of
+from grainfront.packing.state import BOTTOM_WALL, LEFT_WALL
 from grainfront.packing.trials import BLOCKED, RESOLVED
+
+# Members of the pair on which the next particle is expected to rest, among the loop's counters.
+REST_BACK, REST_AHEAD = 10, 11
+# Not the number of any member of the front.
+NO_MEMBER = -9
+# Three equal discs that touch: so high, in two radii, lies the third above the line of two others.
+SIN_60 = math.sqrt(0.75)
 
 
 class Arrangement(NamedTuple):
@@ -22,6 +30,12 @@ class Arrangement(NamedTuple):
     regions: RegionMap
     first_law: np.ndarray  # (n_regions + 2,) first law of each region and of the rest; their number
     region_of_law: np.ndarray  # (n_laws,)
+
+
+def arrangement_of(regions: RegionMap, region_of_law: np.ndarray) -> Arrangement:
+    """The arrangement of laws that are sorted by region, `region_of_law` (n_laws,)."""
+    first_law = np.concatenate([regions.first, [region_of_law.size]])
+    return Arrangement(regions, first_law.astype(np.int64), region_of_law.astype(np.int64))
 
 
 @inlined
@@ -64,24 +78,63 @@ def admitted(arrangement, law, outcome, x, y):
 
 
 @inlined
-def rough_centre(front, placed, domain):
-    """Mean of the two members at the gap, before anything is known of the new particle."""
-    back = member_at(front, front.ends[0] - 1)
-    ahead = member_at(front, front.ends[0])
-    x_back = domain.x_min
-    y_back = domain.y_min
-    x_ahead = domain.x_max
-    y_ahead = domain.y_min
+def foot(placed, domain, member, beside):
+    """Centre and mean radius of a member of the front; of a wall, where it faces another member."""
+    if member >= 0:
+        disc = placed.disc
+        return disc[member, 0], disc[member, 1], math.sqrt(disc[member, 2] * disc[member, 3])
+    x, y = domain.x_min, domain.y_min
+    if beside >= 0:
+        x, y = placed.disc[beside, 0], placed.disc[beside, 1]
+    if member == BOTTOM_WALL:
+        return x, domain.y_min, 0.0
+    return domain.x_min if member == LEFT_WALL else domain.x_max, y, 0.0
+
+
+@inlined
+def rest(front, placed, domain, i):
+    """About where a particle as large as its neighbours would rest on positions i and i + 1."""
+    back, ahead = member_at(front, i), member_at(front, i + 1)
+    x_back, y_back, r_back = foot(placed, domain, back, ahead)
+    x_ahead, y_ahead, r_ahead = foot(placed, domain, ahead, back)
+    return 0.5 * (x_back + x_ahead), 0.5 * (y_back + y_ahead) + SIN_60 * (r_back + r_ahead)
+
+
+@inlined
+def slot_of(passed, member):
+    """Where a member of the front stands in `passed`; walls come after the particles."""
+    return member if member >= 0 else passed.size + member
+
+
+@inlined
+def rough_centre(front, placed, domain, queues, counters, n_loc):
+    """Where the next particle is likely to go: the lowest place to rest on the local front.
+
+    Pairs that were passed over, because what was tried found a place elsewhere, do not count while
+    another is left. The pair is noted.
+    """
+    first = max(front.ends[0] - n_loc, 0)
+    last = min(front.ends[0] + n_loc - 2, front_length(front) - 2)
+    x, y = rest(front, placed, domain, first)
+    lowest = np.inf
+    for i in range(first, last + 1):
+        other_x, other_y = rest(front, placed, domain, i)
+        back, ahead = member_at(front, i), member_at(front, i + 1)
+        if other_y < lowest and queues.passed[slot_of(queues.passed, back)] != ahead:
+            x, y, lowest = other_x, other_y, other_y
+            counters[REST_BACK] = back
+            counters[REST_AHEAD] = ahead
+    return x, min(y, domain.y_max)
+
+
+@inlined
+def pass_over(front, queues, counters, i, k):
+    """Note that the pair at which a particle was to rest was not among those it buried."""
+    back = counters[REST_BACK]
+    position = i
     if back >= 0:
-        x_back, y_back = placed.disc[back, 0], placed.disc[back, 1]
-    if ahead >= 0:
-        x_ahead, y_ahead = placed.disc[ahead, 0], placed.disc[ahead, 1]
-    if back == LEFT_WALL and ahead >= 0:
-        y_back = y_ahead
-    if ahead == RIGHT_WALL and back >= 0:
-        y_ahead = y_back
-    if ahead == BOTTOM_WALL:
-        x_ahead = x_back
-    if back == BOTTOM_WALL:
-        x_back = x_ahead
-    return 0.5 * (x_back + x_ahead), 0.5 * (y_back + y_ahead)
+        position = position_of(front, back) if front.slot[back] >= 0 else i
+    elif back == LEFT_WALL:
+        position = 0
+    if not i <= position < k:
+        queues.passed[slot_of(queues.passed, back)] = counters[REST_AHEAD]

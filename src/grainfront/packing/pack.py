@@ -70,8 +70,8 @@ def run(state: State, limit: int, progress: Callable[[int, float], None] | None 
     """Place particles until there are `limit` or the domain is full; the seconds it took."""
     hull_area = polygon_areas(state.supply.hull_nodes, state.supply.hull_offsets)
     area, seconds = 0.0, 0.0
-    # without progress to tell, one call: between calls threads wait for one another
-    step = limit if progress is None else max(limit // CALLS, 1)
+    # with nothing to do between, one call: between calls threads wait for one another
+    step = limit if progress is None and state.keeper is None else max(limit // CALLS, 1)
     while state.n_placed < limit and not state.finished:
         first = state.n_placed
         start = time.thread_time()

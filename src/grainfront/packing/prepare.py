@@ -18,13 +18,14 @@ from grainfront.packing.advance import (
     WAITING_PLACES,
     advance,
 )
-from grainfront.packing.arranged import Arrangement
+from grainfront.packing.arranged import NO_MEMBER, Arrangement
 from grainfront.packing.control import Control
 from grainfront.packing.front import make_front
 from grainfront.packing.grid import make_grid
 from grainfront.packing.memory import Memory, make_memory
 from grainfront.packing.orientations import orientation_laws
 from grainfront.packing.scout import SCOUT_CORNERS
+from grainfront.packing.size_keeper import SizeKeeper
 from grainfront.packing.state import (
     CLEARANCE_ULPS,
     TOLERANCE_OF_CLEARANCE,
@@ -59,10 +60,14 @@ class State(NamedTuple):
     counters: np.ndarray
     n_angle: int
     n_loc: int
+    keeper: SizeKeeper | None = None
 
     def advance_to(self, limit: int) -> None:
         """Place particles until there are `limit` of them or the domain is full."""
-        advance(*self, limit)
+        if self.keeper is not None:
+            self.keeper.share_out(self.front, self.placed, self.queues, self.supply)
+        *arguments, _ = self
+        advance(*arguments, limit)
 
     @property
     def n_placed(self) -> int:
@@ -92,6 +97,7 @@ class State(NamedTuple):
             grid=Grid(*(array.copy() for array in self.grid)),
             laws=self.laws._replace(placed=self.laws.placed.copy()),
             queues=Queues(*(array.copy() for array in self.queues)),
+            supply=self.supply._replace(size=self.supply.size.copy()),
             counters=self.counters.copy(),
         )
 
@@ -118,18 +124,23 @@ def prepare(
     n_loc: int,
     rng: np.random.Generator,
     arrangement: Arrangement | None = None,
-    counts: Sequence[int] | None = None,
+    last: np.ndarray | None = None,
+    largest_size: float | None = None,
 ) -> State:
     """An empty packing with all its arrays; see `pack_hulls`.
 
-    With an arrangement, each of its laws has an `orientation` and `counts` particles, one law's
-    after the other's.
+    With an arrangement, each of its laws has an `orientation`; its particles come one law's after
+    the other's, and `last` (n_laws,) is where they end. `largest_size` is given where sizes are yet
+    to change.
     """
     n = size.size
-    last = np.cumsum([n] if counts is None else counts)
+    last = np.array([n]) if last is None else last
     walls = _domain(domain)
     supply = _supply(hulls, shape, size, rng)
     circumradius = supply.circumradius[shape] * size
+    largest = circumradius.max()
+    if largest_size is not None:
+        largest = max(largest, largest_size * supply.circumradius.max())
     nodes_of_all = int(hulls.node_counts[shape].sum())
     nodes_of_trials = n_angle * int(hulls.node_counts.max()) + SCOUT_CORNERS
     return State(
@@ -141,7 +152,7 @@ def prepare(
             orientation=np.empty(n),
             source=np.empty(n, dtype=np.int64),
         ),
-        grid=make_grid(walls, circumradius.min(), circumradius.max(), n),
+        grid=make_grid(walls, circumradius.min(), largest, n),
         domain=walls,
         supply=supply,
         laws=orientation_laws(orientation),
@@ -155,14 +166,14 @@ def prepare(
         memory=make_memory(n_angle, n_loc) if search_of(n_angle, n_loc) == "pruned" else None,
         control=None,
         arrangement=arrangement,
-        queues=_queues(last),
+        queues=_queues(last, 0 if arrangement is None else n + 3),
         counters=np.zeros(N_COUNTERS, dtype=np.int64),
         n_angle=n_angle,
         n_loc=n_loc,
     )
 
 
-def _queues(last: np.ndarray) -> Queues:
+def _queues(last: np.ndarray, members: int) -> Queues:
     waiting, parked, placed = np.zeros((3, last.size), dtype=np.int64)
     return Queues(
         drawn=np.concatenate([[0], last[:-1]]),
@@ -171,6 +182,7 @@ def _queues(last: np.ndarray) -> Queues:
         n_waiting=waiting,
         parked=parked,
         n_placed=placed,
+        passed=np.full(members, NO_MEMBER),
     )
 
 

@@ -76,6 +76,7 @@ class Queues(NamedTuple):
     n_waiting: np.ndarray  # (n_laws,)
     parked: np.ndarray  # (n_laws,)
     n_placed: np.ndarray  # (n_laws,)
+    passed: np.ndarray  # (n + 3,) of each member: the next one, if what was tried rested elsewhere
 
 
 class Placed(NamedTuple):

@@ -1,0 +1,101 @@
+"""Keeping the size law of the whole while regions take its finer and its coarser part.
+
+Where the law is parted depends on how many particles end up in each part, which nobody knows
+beforehand. So the sizes that are still to be drawn are shared out again now and then: of what the
+law still lacks, the finer regions get the finer part, as large as their share of the particles yet
+to come, and the other regions the rest.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from grainfront.packing.state import Front, Placed, Queues, Supply
+
+# Bins of equal probability in which the sizes drawn are counted: fine beside the 24 bins of E2.
+N_BIN = 480
+# Particles of a part below the front from which on they tell how many there are for an area.
+ENOUGH_TO_COUNT = 200
+
+
+class Columns(NamedTuple):
+    """How the area of the coarser and of the finer regions is spread over upright columns."""
+
+    x: np.ndarray  # (n,) middle of each column
+    height: np.ndarray  # (k,) ascending, equally spaced
+    area_below: np.ndarray  # (2, k, n) area of the part below each height in each column
+
+
+class SizeKeeper:
+    """Shares out the sizes yet to be drawn between the laws of coarser and of finer particles.
+
+    `quantile` is that of the size law of the whole. `part` (n_laws,) is 1 for laws that take its
+    finer part, 0 for the others; `level` (n,) is the probability of each particle of the supply
+    within its part. `density` (2,) guesses the particles on each unit of area of the parts.
+    """
+
+    def __init__(
+        self,
+        quantile: Callable[[np.ndarray], np.ndarray],
+        part: np.ndarray,
+        level: np.ndarray,
+        columns: Columns,
+        density: np.ndarray,
+    ) -> None:
+        self.quantile, self.part, self.level = quantile, part, level
+        self.columns, self.density = columns, density
+        self.probability = np.zeros(level.size)
+
+    def share_out(self, front: Front, placed: Placed, queues: Queues, supply: Supply) -> None:
+        """Give the particles that are yet to be drawn the sizes that the law still lacks."""
+        to_come = self._to_come(front, placed, queues)
+        first = np.concatenate([[0], queues.last[:-1]])
+        drawn = np.concatenate(
+            [self.probability[a:b] for a, b in zip(first, queues.drawn, strict=True)]
+        )
+        wanted = (drawn.size + to_come.sum()) / N_BIN
+        counts = np.histogram(drawn, N_BIN, (0.0, 1.0))[0]
+        lacking = np.concatenate([[0.0], np.cumsum(np.maximum(wanted - counts, 0.0))])
+        # finer particles take the beginning of what is lacking, coarser ones the end
+        parting = lacking[-1] * to_come[1] / to_come.sum()
+        bounds = ((parting, lacking[-1]), (0.0, parting))
+        for part, start, end in zip(self.part, queues.drawn, queues.last, strict=True):
+            low, high = bounds[part]
+            mass = low + self.level[start:end] * (high - low)
+            self.probability[start:end] = np.interp(mass, lacking, np.linspace(0.0, 1.0, N_BIN + 1))
+            supply.size[start:end] = self.quantile(self.probability[start:end])
+
+    def _to_come(self, front: Front, placed: Placed, queues: Queues) -> np.ndarray:
+        """Particles of the coarser and the finer part that are likely to be placed yet.
+
+        Those on the front, half below it and half above, count by halves.
+        """
+        back, ahead = front.member[: front.ends[0]], front.member[front.ends[1] :]
+        members = np.concatenate([back, ahead])
+        members = members[members >= 0]
+        law = np.searchsorted(queues.last, placed.source[members], side="right")
+        on_front = np.bincount(self.part[law], minlength=2)
+        so_far = np.bincount(self.part, queues.n_placed, 2) - 0.5 * on_front
+        below = self._area_below(placed.disc[members])
+        density = np.where(
+            so_far >= ENOUGH_TO_COUNT,
+            so_far / np.maximum(below, np.finfo(float).tiny),
+            self.density,
+        )
+        left = self.columns.area_below[:, -1].sum(axis=1) - below
+        # never nothing: the last particles need a size too
+        return np.maximum(density * left - 0.5 * on_front, 1.0)
+
+    def _area_below(self, disc: np.ndarray) -> np.ndarray:
+        """Area of the coarser and the finer regions below the line of centres of the front."""
+        x, height, area = self.columns
+        if not len(disc):
+            return np.zeros(2)
+        level = np.interp(x, *disc[np.argsort(disc[:, 0], kind="stable"), :2].T)
+        row = (level - height[0]) / (height[1] - height[0])
+        return area[
+            :, np.clip(np.rint(row).astype(int), 0, height.size - 1), np.arange(x.size)
+        ].sum(axis=1)

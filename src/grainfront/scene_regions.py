@@ -1,0 +1,166 @@
+"""From a scene with an arrangement to the laws of its regions and the particles of each law."""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from grainfront.arrangement.regions import Arrangement as Regions
+from grainfront.laws import Law, Truncated
+from grainfront.scene import Scene
+
+if TYPE_CHECKING:
+    from grainfront.geometry.regions import RegionMap
+    from grainfront.packing.size_keeper import SizeKeeper
+
+# Points along the longer side of the domain, at which regions and their areas are counted.
+AREA_POINTS = 500
+# Points of the integral over the size law; the parting is that exact.
+PARTING_POINTS = 1 << 14
+# ASSUME of the volume fraction, before there is a packing; only the first sizes depend on it.
+VOLUME_FRACTION = 0.8
+
+
+@dataclass(frozen=True)
+class RegionLaws:
+    """The laws of one stratum of a region, and the area in which they hold."""
+
+    region: int
+    size: Law
+    matched: tuple[str, Law] | None
+    orientation: Law
+    finer: bool
+    area: float
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What an arrangement asks of a packing: the map of its regions and the laws of each.
+
+    `x` (n,), `height` (k,) and `area_below` (n_laws, k, n) tell how much of the area of each law
+    lies below each height in upright columns.
+    `parting` is the probability at which the size law is parted; None where it is not, or where the
+    scene gives the size itself.
+    """
+
+    regions: RegionMap
+    laws: tuple[RegionLaws, ...]
+    x: np.ndarray
+    height: np.ndarray
+    area_below: np.ndarray
+    parting: float | None
+
+
+def plan(scene: Scene) -> Plan:
+    """The laws of all strata of all regions, and last of the rest of the domain.
+
+    Raises InputError where a region lies outside the domain.
+    """
+    from grainfront.arrangement.build import region_map
+
+    assert scene.arrangement is not None, "there are no regions"
+    regions = region_map(scene.arrangement, scene.domain)
+    x, height, area_below = _areas(scene, regions)
+    area = area_below[:, -1].sum(axis=1)
+    laws = _laws(scene, scene.arrangement, area)
+    finer = np.array([law.finer for law in laws])
+    if not finer.any():
+        return Plan(regions, tuple(laws), x, height, area_below, None)
+    critical, parting = scene.arrangement.critical_size, None
+    if critical is None:
+        parting = _parting(scene.size, area[finer].sum() / area.sum())
+        critical = float(scene.size.quantile(parting))
+    parts = Truncated(scene.size, minimum=critical), Truncated(scene.size, maximum=critical)
+    laws = [
+        dataclasses.replace(law, size=parts[law.finer]) if law.size is scene.size else law
+        for law in laws
+    ]
+    return Plan(regions, tuple(laws), x, height, area_below, parting)
+
+
+def keeper(
+    scene: Scene, found: Plan, last: np.ndarray, size: np.ndarray, hull_area: float
+) -> SizeKeeper | None:
+    """What keeps the size law of the whole; None where it is not parted as areas ask.
+
+    `size` (n,) are those of the particles, one law's after the other's, `last` (n_laws,) where each
+    ends; `hull_area` is the mean of size 1.
+    """
+    from grainfront.packing.size_keeper import Columns, SizeKeeper
+
+    if found.parting is None:
+        return None
+    parts = np.split(size, last[:-1])
+    level = [law.size.cdf(one) for law, one in zip(found.laws, parts, strict=True)]
+    part = np.array([int(law.finer) for law in found.laws])
+    area = np.array([found.area_below[part == p].sum(axis=0) for p in (0, 1)])
+    particles = VOLUME_FRACTION * scene.domain.area / (hull_area * scene.size.moment(2))
+    share = np.array([1.0 - found.parting, found.parting])
+    return SizeKeeper(
+        scene.size.quantile,
+        part,
+        np.concatenate(level),
+        Columns(found.x, found.height, area),
+        particles * share / area[:, -1].sum(axis=1),
+    )
+
+
+def _laws(scene: Scene, arrangement: Regions, area: np.ndarray) -> list[RegionLaws]:
+    """The laws of all strata and of the rest, the size law not parted yet."""
+    parted = [region.finer for region in arrangement.regions if region.finer is not None]
+    rest_is_finer = bool(parted) and not parted[0]
+    found: list[RegionLaws] = []
+    for number, region in enumerate(arrangement.regions):
+        finer = rest_is_finer if region.finer is None else region.finer
+        for local in region.strata:
+            found.append(
+                RegionLaws(
+                    number,
+                    local.size or scene.size,
+                    local.matched or scene.matched,
+                    local.orientation or scene.orientation,
+                    finer and local.size is None,
+                    float(area[len(found)]),
+                )
+            )
+    rest = RegionLaws(
+        len(arrangement.regions),
+        scene.size,
+        scene.matched,
+        scene.orientation,
+        rest_is_finer,
+        float(area[-1]),
+    )
+    return [*found, rest]
+
+
+def _areas(scene: Scene, regions: RegionMap) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Middles of columns, heights, and the area of each law below them, counted in points."""
+    from grainfront.arrangement.build import assign
+
+    domain = scene.domain
+    step = max(domain.width, domain.height) / AREA_POINTS
+    columns, rows = (max(round(side / step), 1) for side in (domain.width, domain.height))
+    x = domain.x_min + domain.width * (np.arange(columns) + 0.5) / columns
+    y = domain.y_min + domain.height * (np.arange(rows) + 0.5) / rows
+    n_strata = int(regions.first[-1])
+    stratum = assign(regions, x[None, :], y[:, None]).stratum
+    law = np.where(stratum < 0, n_strata, stratum)
+    count = np.array([np.cumsum(law == n, axis=0) for n in range(n_strata + 1)])
+    below = np.concatenate([np.zeros((n_strata + 1, 1, columns)), count], axis=1)
+    height = domain.y_min + domain.height * np.arange(rows + 1) / rows
+    return x, height, below * domain.area / (rows * columns)
+
+
+def _parting(size: Law, finer_share: float) -> float:
+    """The probability at which a size law is parted between finer and coarser regions.
+
+    Finer particles take up as large a share of the solid as their regions of the area, if both are
+    filled alike.
+    """
+    u = (np.arange(PARTING_POINTS) + 0.5) / PARTING_POINTS
+    solid = np.concatenate([[0.0], np.cumsum(size.quantile(u) ** 2)])
+    return float(np.interp(finer_share * solid[-1], solid, np.linspace(0.0, 1.0, solid.size)))
