@@ -28,17 +28,22 @@ CELL_MARGIN = 0.01
 # Edges on the border of the window stray from it by rounding alone.
 ON_BORDER = 1e-9
 
+# How many segments each cell of a zone has, and all of them.
+Lists = tuple[np.ndarray, np.ndarray]
+
 
 def signed_distances(zones: Sequence[Resolved], domain: Rectangle) -> SignedDistances:
     """The distance grid of zones over a domain; zone k of the kernels is `zones[k]`."""
     edges = [_edges(zone.polygon) for zone in zones]
     kept = [e[_bounding(e, zone.window)] for e, zone in zip(edges, zones, strict=True)]
     cell, columns, rows = _grid(kept, domain)
-    touching, nearest, first = [], [], 0
+    touching: list[Lists] = []
+    nearest: list[Lists] = []
+    first = 0
     for one in kept:
         pairs = _pairs(one, domain, cell, columns, rows)
-        for all_pairs, (cells, segments) in zip((touching, nearest), pairs, strict=True):
-            all_pairs.append((np.bincount(cells, minlength=columns * rows), segments + first))
+        for lists, (cells, segments) in zip((touching, nearest), pairs, strict=True):
+            lists.append((np.bincount(cells, minlength=columns * rows), segments + first))
         first += len(one)
     segment = np.concatenate(kept)
     squared = np.sum((segment[:, 2:] - segment[:, :2]) ** 2, axis=1)
@@ -142,7 +147,7 @@ def _sorted(pairs: np.ndarray) -> np.ndarray:
     return pairs[:, np.lexsort((pairs[1], pairs[0]))]
 
 
-def _lists(parts: Sequence[tuple[np.ndarray, np.ndarray]]) -> tuple[np.ndarray, np.ndarray]:
+def _lists(parts: Sequence[Lists]) -> tuple[np.ndarray, np.ndarray]:
     """Segments of all cells of all zones, and their offsets."""
     counts = np.concatenate([count for count, _ in parts])
     segments = np.concatenate([segment for _, segment in parts])
