@@ -44,7 +44,9 @@ def signed_distance(
         map_axes(axes, domain, length_unit)
         panel_letter(axes, letter, title)
         if filled is not None:
-            figure.colorbar(filled, ax=axes, label=f"signed distance ({length_unit})", shrink=0.8, aspect=30)
+            figure.colorbar(
+                filled, ax=axes, label=f"signed distance ({length_unit})", shrink=0.8, aspect=30
+            )
     for axes in panels[len(distances) :]:
         axes.set_axis_off()
     return figure

@@ -63,7 +63,9 @@ def random_zone(rng, depth):
             return Bars(width, width * rng.uniform(1.2, 4.0), rng.uniform(0, 180), centre)
         case 4:
             about = (3.0, 6.0)
-            return Moved(random_zone(rng, depth - 1), rng.uniform(0.5, 2), rng.uniform(0, 360), about)
+            return Moved(
+                random_zone(rng, depth - 1), rng.uniform(0.5, 2), rng.uniform(0, 360), about
+            )
     operation = (Union, Intersection, Difference)[kind - 5]
     return operation((random_zone(rng, depth - 1), random_zone(rng, depth - 1)))
 
@@ -90,7 +92,7 @@ def test_distance_and_side_are_those_of_shapely(seed):
 
 
 def exactly_inside(nodes, x, y):
-    """Whether a point lies inside a polygon, or None where it lies on its boundary: in fractions."""
+    """Whether a point lies inside a polygon, in fractions; None on its boundary."""
     nodes = [(Fraction(a), Fraction(b)) for a, b in nodes]
     x, y = Fraction(x), Fraction(y)
     inside = False
