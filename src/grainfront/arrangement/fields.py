@@ -9,7 +9,7 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike
 
-from grainfront.arrangement.resolve import Resolved
+from grainfront.arrangement.resolve import ON_BORDER, Resolved
 from grainfront.geometry.signed_distance import (
     SignedDistances,
     mark_cells,
@@ -25,8 +25,6 @@ CELLS_A_SEGMENT, FEWEST_CELLS, MOST_CELLS = 8, 1 << 12, 1 << 18
 # Cells look for segments beyond their edges by this share of their width, so that rounding, which
 # is far less, never puts a point into a cell that does not know its segments.
 CELL_MARGIN = 0.01
-# Edges on the border of the window stray from it by rounding alone.
-ON_BORDER = 1e-9
 
 # How many segments each cell of a zone has, and all of them.
 Lists = tuple[np.ndarray, np.ndarray]

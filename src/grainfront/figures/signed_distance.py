@@ -58,9 +58,8 @@ def _contours(axes: Axes, distance: np.ndarray, domain: Rectangle) -> ContourSet
     y = np.linspace(domain.y_min, domain.y_max, rows)
     if not np.isfinite(distance).all():
         return None
-    levels = MaxNLocator(2 * CONTOURS, steps=[1, 2, 5, 10]).tick_values(
-        float(distance.min()), float(distance.max())
-    )
+    locator = MaxNLocator(2 * CONTOURS, steps=[1, 2, 5, 10])
+    levels = np.asarray(locator.tick_values(float(distance.min()), float(distance.max())))
     filled = axes.contourf(x, y, distance, levels, cmap=DISTANCE_MAP, norm=_colours(levels))
     axes.contour(x, y, distance, levels, colors=INK, linewidths=0.25, linestyles="solid")
     axes.contour(x, y, distance, [0.0], colors=INK, linewidths=1.2)

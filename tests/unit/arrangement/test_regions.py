@@ -28,13 +28,14 @@ def points(rng, n=400):
     return rng.uniform(DOMAIN.x_min, DOMAIN.x_max, n), rng.uniform(DOMAIN.y_min, DOMAIN.y_max, n)
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=10, deadline=None)
 @given(st.integers(0, 2**32 - 1))
 def test_the_first_region_that_holds_a_point_has_it(seed):
     rng = np.random.default_rng(seed)
     centres = rng.uniform((-3, 2), (9, 10), (3, 2))
-    circles = [Circle(tuple(c), r) for c, r in zip(centres, rng.uniform(0.5, 4, 3), strict=True)]
-    arrangement = Arrangement(tuple(Region(circle, LAWS) for circle in circles))
+    circle, *boxes = [tuple(centre) for centre in centres.tolist()]
+    zones = [Circle(circle, rng.uniform(0.5, 4)), *(Box(c, *rng.uniform(1, 8, 2)) for c in boxes)]
+    arrangement = Arrangement(tuple(Region(zone, LAWS) for zone in zones))
     x, y = points(rng)
     found = assign(region_map(arrangement, DOMAIN), x, y)
     expected = np.full(x.size, REST)

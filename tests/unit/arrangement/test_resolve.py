@@ -11,7 +11,7 @@ import skimage.data
 import skimage.io
 from shapely import affinity
 
-from grainfront.arrangement.resolve import resolve
+from grainfront.arrangement.resolve import resolve, resolve_bounded
 from grainfront.arrangement.zones import (
     Bars,
     Box,
@@ -92,6 +92,17 @@ def test_a_polygon_with_a_hole():
 def test_what_cannot_be_had_is_refused(zone, told):
     with pytest.raises(InputError, match=told):
         resolve(Union((Box((1.0, 1.0), 1.0, 1.0), zone)), DOMAIN)
+
+
+def test_a_zone_may_be_a_domain_where_it_ends():
+    hopper = Difference((Box((0.0, 5.0), 10.0, 10.0), HalfPlane((5.0, 5.0), (-1.0, 1.0))))
+    assert resolve_bounded(hopper).area == pytest.approx(100.0 - 12.5)
+    with pytest.raises(InputError, match="must be bounded"):
+        resolve_bounded(HalfPlane((0.0, 0.0), (0.0, 1.0)))
+    with pytest.raises(InputError, match="must be bounded"):
+        resolve_bounded(Union((Box((0.0, 5.0), 10.0, 10.0), Bars(1.0, 3.0))))
+    with pytest.raises(InputError, match="nothing is left"):
+        resolve_bounded(Difference((Box((0.0, 0.0), 1.0, 1.0), Box((0.0, 0.0), 2.0, 2.0))))
 
 
 def draw_disc(path, *, dark, hole=0.0, shift=0):
