@@ -80,10 +80,12 @@ def resolve_bounded(zone: Zone) -> shapely.Geometry:
     """
     polygon, window = _resolve(zone, np.empty((0, 2)))
     border = shapely.box(window.x_min, window.y_min, window.x_max, window.y_max).exterior
+    slack = ON_BORDER * max(window.width, window.height)
+    # half-planes and bars through a single point have no extent, and no end
+    if slack == 0.0 or shapely.distance(polygon, border) <= slack:
+        raise InputError("the zone has no end, or none near, but a domain must be bounded")
     if polygon.is_empty:
         raise InputError("nothing is left of the zone, but a domain must have an area")
-    if shapely.distance(polygon, border) <= ON_BORDER * max(window.width, window.height):
-        raise InputError("the zone has no end, or none near, but a domain must be bounded")
     return polygon
 
 
