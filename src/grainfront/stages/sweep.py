@@ -78,7 +78,10 @@ def _pack(
 
 
 def _digest(scene: Scene, database: str) -> str:
-    fields = (scene.domain, scene.size, scene.matched, scene.orientation, scene.packing.n_bin)
+    fields = (
+        scene.domain, scene.size, scene.matched, scene.orientation, scene.packing.n_bin,
+        scene.replacement,
+    )  # fmt: skip
     digest = hashlib.sha256(f"{fields} {sources_digest('sweep')}".encode())
     digest.update(Path(database).read_bytes())
     return digest.hexdigest()[:16]
