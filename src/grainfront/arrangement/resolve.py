@@ -142,7 +142,7 @@ def _figure(leaf: Zone) -> shapely.Geometry:
 def _valid(polygon: shapely.Polygon) -> shapely.Polygon:
     if not polygon.is_valid or polygon.area == 0.0:
         reason = shapely.is_valid_reason(polygon) if not polygon.is_valid else "its area is 0"
-        raise InputError(f"a polygon of the arrangement is not simple with holes inside ({reason})")
+        raise InputError(f"a polygon is not simple with holes inside ({reason})")
     return polygon
 
 
@@ -232,7 +232,7 @@ def _bars(zone: zones.Bars, motion: Motion, window: Rectangle) -> shapely.Geomet
     count = far / 4.0 / spacing
     if count > MOST_BARS:
         raise InputError(
-            f"bars of the arrangement are {zone.spacing:g} apart, which makes {count:.0f} of them, "
+            f"bars are {zone.spacing:g} apart, which makes {count:.0f} of them, "
             f"but there may be {MOST_BARS} at most"
         )
     first = offset.real % spacing - math.ceil(count) * spacing

@@ -14,7 +14,7 @@ from grainfront.arrangement.regions import (
     LocalLaws,
     Region,
 )
-from grainfront.arrangement.zones import Box, Circle, HalfPlane
+from grainfront.arrangement.zones import Bars, Box, Circle, HalfPlane
 from grainfront.errors import InputError
 from grainfront.geometry.regions import MIXED, REST
 from grainfront.laws import Constant
@@ -76,3 +76,9 @@ def test_a_region_outside_the_domain_is_refused():
     near = Region(Circle((3.0, 6.0), 3.0), LAWS)
     with pytest.raises(InputError, match=r"arrangement.regions\[1\].inside lies outside"):
         region_map(Arrangement((near, far)), DOMAIN)
+
+
+def test_what_is_wrong_with_a_zone_is_told_with_its_region():
+    bars = Region(Bars(1e-6, 2e-6), LAWS)
+    with pytest.raises(InputError, match=r"^arrangement.regions\[0\].inside: bars are 2e-06 apart"):
+        region_map(Arrangement((bars,)), DOMAIN)
