@@ -150,7 +150,7 @@ def _sentence(error: Any) -> str:
     if rule in LIMITS:
         allowed = f"{LIMITS[rule]} {_keys(value) if rule == 'enum' else value}"
     elif rule == "type":
-        allowed = TYPES[value]
+        allowed = " or ".join(TYPES[t] for t in ([value] if isinstance(value, str) else value))
     elif rule == "minItems":
         allowed = f"a list at least {value} long"
     elif rule == "maxItems":

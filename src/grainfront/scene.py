@@ -9,31 +9,19 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any, TypeVar
 
-from grainfront import laws
-from grainfront.arrangement.regions import Arrangement
+from grainfront.arrangement.regions import Arrangement, LocalLaws
 from grainfront.checked_yaml import parse_checked, read_text
 from grainfront.errors import InputError
 from grainfront.laws import Law
 from grainfront.particles import Rectangle
+from grainfront.scene_arrangement import arrangement_of
+from grainfront.scene_laws import LAWS as LAWS
+from grainfront.scene_laws import law_of, matched_of
 from grainfront.shapes import sources
 from grainfront.shapes.sources import ShapeSource
 
 T = TypeVar("T")
 
-# Descriptors whose law the choice of the shapes may follow.
-MATCHED = ("aspect_ratio", "circularity", "regularity")
-
-LAWS: dict[str, Callable[..., Law]] = {
-    "uniform": laws.Uniform,
-    "normal": laws.Normal,
-    "lognormal": laws.Lognormal,
-    "weibull": laws.Weibull,
-    "gamma": laws.Gamma,
-    "exponential": laws.Exponential,
-    "beta": laws.Beta,
-    "histogram": laws.Histogram,
-    "grading_curve": laws.GradingCurve,
-}
 IMAGES: dict[str, Callable[..., ShapeSource]] = {
     "photographs": sources.Photographs,
     "binary_masks": sources.BinaryMasks,
@@ -90,6 +78,7 @@ class Scene:
     `name` its name without the suffix. One packing is made for each of `seeds`. `matched` is the
     descriptor (aspect_ratio, circularity or regularity) that the choice of the shapes follows, and
     its law. `outputs` are those beyond NetCDF: "vtk", "figures".
+    `arrangement` tells where other laws hold.
     """
 
     name: str
@@ -132,8 +121,10 @@ def load_scene(path: str | Path) -> Scene:
 
 def _scene(path: Path, text: str, data: dict[str, Any]) -> Scene:
     domain = _domain(data["domain"])
-    size = _law("size", data)
+    size = law_of("size", data["size"], "size")
     _require_room(domain, size)
+    orientation = law_of("orientation", data["orientation"], "orientation")
+    matched = _matched(data)
     return Scene(
         name=path.stem,
         text=text,
@@ -142,14 +133,15 @@ def _scene(path: Path, text: str, data: dict[str, Any]) -> Scene:
         domain=domain,
         shapes=_shapes(data["shapes"], path.parent),
         size=size,
-        matched=_matched(data),
-        orientation=_law("orientation", data),
+        matched=matched,
+        orientation=orientation,
         packing=PackingEffort(**data["packing"]),
         target=_target(data),
         sweep=_part(Sweep, "sweep", data),
         error_vs_time=_part(ErrorVsTime, "error_vs_time", data),
         replacement=data["replacement"],
         outputs=tuple(data["outputs"]),
+        arrangement=_arrangement(data, LocalLaws(size, matched, orientation), path.parent),
     )
 
 
@@ -174,25 +166,17 @@ def _require_room(domain: Rectangle, size: Law) -> None:
         )
 
 
-def _law(key: str, data: dict[str, Any]) -> Law:
-    """The law under `key`, checked to be possible for that quantity."""
-    ((kind, parameters),) = data[key].items()
-    try:
-        law = laws.Constant(parameters) if kind == "constant" else LAWS[kind](**parameters)
-        laws.require_possible(law, key)
-    except InputError as error:
-        raise InputError(f"{key}.{kind}: {error}") from None
-    return law
-
-
 def _matched(data: dict[str, Any]) -> tuple[str, Law] | None:
-    given = [key for key in MATCHED if key in data]
-    if len(given) > 1:
-        raise InputError(
-            f"{' and '.join(given)} are given, but at most one of {', '.join(MATCHED)} may be, "
-            "as a shape cannot follow two laws at once"
-        )
-    return (given[0], _law(given[0], data)) if given else None
+    name = matched_of(data)
+    return (name, law_of(name, data[name], name)) if name else None
+
+
+def _arrangement(data: dict[str, Any], scene_laws: LocalLaws, folder: Path) -> Arrangement | None:
+    if "arrangement" not in data:
+        return None
+    return arrangement_of(
+        data["arrangement"], scene_laws, lambda name, key: _found(name, folder, key)
+    )
 
 
 def _target(data: dict[str, Any]) -> Target | None:

@@ -49,7 +49,7 @@ class TestWithoutJit:
         )
         assert interpreted.stdout.strip() == digest_of_a_packing()
 
-    @pytest.mark.parametrize("folder", ["geometry", "packing"])
+    @pytest.mark.parametrize("folder", ["geometry", "packing", "arrangement"])
     def test_the_tests_of_the_kernels_pass(self, folder):
         run = subprocess.run(
             [sys.executable, "-m", "pytest", "-m", "not compiled", "-p", "no:cacheprovider",

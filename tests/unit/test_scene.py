@@ -179,7 +179,7 @@ def test_the_scenes_that_are_promised_are_there():
 FAULTS = [
     ("seed: 3", "seeed: 3", ["seeed is an unknown key", "did you mean seed", "length_unit"]),
     ("{}", "{vertixes: 4}", ["shapes.family.regular_polygon.vertixes", "did you mean vertices"]),
-    ("seed: 3", "seed: 3\narrangement: {}", ["arrangement is an unknown key"]),
+    ("seed: 3", "seed: 3\narrangement: {}", ["arrangement.regions is missing"]),
     ("seed: 3", "seed: -1", ["seed is -1", "at least 0"]),
     ("seed: 3", "seed: 1.5", ["seed is 1.5", "whole number"]),
     ("seed: 3", "seed: yes", ["seed is True", "whole number"]),

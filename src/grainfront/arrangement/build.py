@@ -31,12 +31,13 @@ def resolve_regions(arrangement: Arrangement, domain: Rectangle) -> list[Resolve
     """
     resolved = []
     for number, region in enumerate(arrangement.regions):
-        zone = resolve(_everywhere(domain) if region.inside is None else region.inside, domain)
+        key = f"arrangement.regions[{number}].inside"
+        try:
+            zone = resolve(_everywhere(domain) if region.inside is None else region.inside, domain)
+        except InputError as error:
+            raise InputError(f"{key}: {error}") from None
         if zone.within(domain).area == 0.0:
-            raise InputError(
-                f"arrangement.regions[{number}].inside lies outside the domain, "
-                "but must hold a part of it"
-            )
+            raise InputError(f"{key} lies outside the domain, but must hold a part of it")
         resolved.append(zone)
     return resolved
 

@@ -9,7 +9,7 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike
 
-from grainfront.arrangement.resolve import Resolved
+from grainfront.arrangement.resolve import ON_BORDER, Resolved
 from grainfront.geometry.signed_distance import (
     SignedDistances,
     mark_cells,
@@ -19,14 +19,15 @@ from grainfront.geometry.signed_distance import (
 )
 from grainfront.particles import Rectangle
 
-# So many cells for each segment in the domain leave one or two segments in most cells that the
-# polylines touch; the bounds keep simple zones sharp and large ones within some 10 MB.
-CELLS_A_SEGMENT, FEWEST_CELLS, MOST_CELLS = 32, 1 << 12, 1 << 18
+# So many cells for each segment in the domain leave few segments in a cell; four times as many are
+# no faster to ask. The bounds keep simple zones sharp and the lists of large ones short.
+CELLS_A_SEGMENT, FEWEST_CELLS, MOST_CELLS = 8, 1 << 12, 1 << 18
 # Cells look for segments beyond their edges by this share of their width, so that rounding, which
 # is far less, never puts a point into a cell that does not know its segments.
 CELL_MARGIN = 0.01
-# Edges on the border of the window stray from it by rounding alone.
-ON_BORDER = 1e-9
+
+# How many segments each cell of a zone has, and all of them.
+Lists = tuple[np.ndarray, np.ndarray]
 
 
 def signed_distances(zones: Sequence[Resolved], domain: Rectangle) -> SignedDistances:
@@ -34,11 +35,13 @@ def signed_distances(zones: Sequence[Resolved], domain: Rectangle) -> SignedDist
     edges = [_edges(zone.polygon) for zone in zones]
     kept = [e[_bounding(e, zone.window)] for e, zone in zip(edges, zones, strict=True)]
     cell, columns, rows = _grid(kept, domain)
-    touching, nearest, first = [], [], 0
+    touching: list[Lists] = []
+    nearest: list[Lists] = []
+    first = 0
     for one in kept:
         pairs = _pairs(one, domain, cell, columns, rows)
-        for all_pairs, (cells, segments) in zip((touching, nearest), pairs, strict=True):
-            all_pairs.append((np.bincount(cells, minlength=columns * rows), segments + first))
+        for lists, (cells, segments) in zip((touching, nearest), pairs, strict=True):
+            lists.append((np.bincount(cells, minlength=columns * rows), segments + first))
         first += len(one)
     segment = np.concatenate(kept)
     squared = np.sum((segment[:, 2:] - segment[:, :2]) ** 2, axis=1)
@@ -132,17 +135,17 @@ def _pairs(
     # within that more than the centre's nearest, seen from the point
     reach = least + math.sqrt(2.0) * cell + 4.0 * margin
     return (
-        _sorted(tree.query(boxes, predicate="intersects")),
-        _sorted(tree.query(centres, predicate="dwithin", distance=reach)),
+        _by_cell(tree.query(boxes, predicate="intersects")),
+        _by_cell(tree.query(centres, predicate="dwithin", distance=reach)),
     )
 
 
-def _sorted(pairs: np.ndarray) -> np.ndarray:
-    """Pairs in the order of cells, then of segments: the same ones whatever the tree's order."""
-    return pairs[:, np.lexsort((pairs[1], pairs[0]))]
+def _by_cell(pairs: np.ndarray) -> np.ndarray:
+    """Pairs in the order of their cells."""
+    return pairs[:, np.argsort(pairs[0], kind="stable")]
 
 
-def _lists(parts: Sequence[tuple[np.ndarray, np.ndarray]]) -> tuple[np.ndarray, np.ndarray]:
+def _lists(parts: Sequence[Lists]) -> tuple[np.ndarray, np.ndarray]:
     """Segments of all cells of all zones, and their offsets."""
     counts = np.concatenate([count for count, _ in parts])
     segments = np.concatenate([segment for _, segment in parts])

@@ -25,6 +25,8 @@ from grainfront.particles import Rectangle
 EDGES_OF_QUARTER = 90
 # More bars than this are refused: they would be finer than any grain that is told apart in them.
 MOST_BARS = 10_000
+# Edges on the border of a window stray from it by rounding alone, relative to its width.
+ON_BORDER = 1e-9
 
 
 class Resolved(NamedTuple):
@@ -67,10 +69,31 @@ def resolve(zone: Zone, domain: Rectangle) -> Resolved:
     Raises InputError where an image or a file of the zone is at fault, where a polygon crosses
     itself, and where there are too many bars.
     """
+    corners = np.array([[domain.x_min, domain.y_min], [domain.x_max, domain.y_max]])
+    return _resolve(zone, corners)
+
+
+def resolve_bounded(zone: Zone) -> shapely.Geometry:
+    """The polygon (or polygons, with holes) of a zone that is to be a domain itself.
+
+    Raises InputError as `resolve` does, and where the zone is empty or has no end, or none near.
+    """
+    polygon, window = _resolve(zone, np.empty((0, 2)))
+    border = shapely.box(window.x_min, window.y_min, window.x_max, window.y_max).exterior
+    slack = ON_BORDER * max(window.width, window.height)
+    # half-planes and bars through a single point have no extent, and no end
+    if slack == 0.0 or shapely.distance(polygon, border) <= slack:
+        raise InputError("the zone has no end, or none near, but a domain must be bounded")
+    if polygon.is_empty:
+        raise InputError("nothing is left of the zone, but a domain must have an area")
+    return polygon
+
+
+def _resolve(zone: Zone, seen: np.ndarray) -> Resolved:
+    """Resolve a zone in a window around the points to be `seen`, shape (n, 2)."""
     figures = {leaf: _figure(leaf) for leaf in _leaves(zone)}
     points, reach = _extent(zone, STILL, figures)
-    corners = [[domain.x_min, domain.y_min], [domain.x_max, domain.y_max]]
-    points = np.concatenate([points, corners])
+    points = np.concatenate([points, seen])
     low, high = points.min(axis=0) - reach, points.max(axis=0) + reach
     diagonal = math.hypot(*(high - low))
     window = Rectangle(*map(float, low - diagonal), *map(float, high + diagonal))
@@ -119,7 +142,7 @@ def _figure(leaf: Zone) -> shapely.Geometry:
 def _valid(polygon: shapely.Polygon) -> shapely.Polygon:
     if not polygon.is_valid or polygon.area == 0.0:
         reason = shapely.is_valid_reason(polygon) if not polygon.is_valid else "its area is 0"
-        raise InputError(f"a polygon of the arrangement is not simple with holes inside ({reason})")
+        raise InputError(f"a polygon is not simple with holes inside ({reason})")
     return polygon
 
 
@@ -209,7 +232,7 @@ def _bars(zone: zones.Bars, motion: Motion, window: Rectangle) -> shapely.Geomet
     count = far / 4.0 / spacing
     if count > MOST_BARS:
         raise InputError(
-            f"bars of the arrangement are {zone.spacing:g} apart, which makes {count:.0f} of them, "
+            f"bars are {zone.spacing:g} apart, which makes {count:.0f} of them, "
             f"but there may be {MOST_BARS} at most"
         )
     first = offset.real % spacing - math.ceil(count) * spacing

@@ -115,7 +115,7 @@ class Offset:
 
 @dataclass(frozen=True)
 class Moved:
-    """A zone scaled by `scale` and turned by `angle`, both about `about`, then shifted by `shift`."""
+    """A zone scaled and turned (degrees), both about the point `about`, then shifted."""
 
     zone: Zone
     scale: float = 1.0

@@ -10,6 +10,7 @@ from grainfront.figures.laws import laws
 from grainfront.figures.packing import packing
 from grainfront.figures.photograph import photograph
 from grainfront.figures.rose import rose
+from grainfront.figures.signed_distance import signed_distance
 from grainfront.figures.style import save_png
 
 __all__ = [
@@ -21,4 +22,5 @@ __all__ = [
     "photograph",
     "rose",
     "save_png",
+    "signed_distance",
 ]
