@@ -15,7 +15,8 @@ import numpy as np
 
 from grainfront.packing.state import Front, Placed, Queues, Supply
 
-# Bins of equal probability in which the sizes drawn are counted: fine beside the 24 bins of E2.
+# Bins of equal probability in which the sizes drawn are counted: fine beside the 24 bins of E2, so
+# that the place where the law is parted is known well.
 N_BIN = 480
 # Particles of a part below the front from which on they tell how many there are for an area.
 ENOUGH_TO_COUNT = 200
@@ -58,7 +59,8 @@ class SizeKeeper:
         )
         wanted = (drawn.size + to_come.sum()) / N_BIN
         counts = np.histogram(drawn, N_BIN, (0.0, 1.0))[0]
-        lacking = np.concatenate([[0.0], np.cumsum(np.maximum(wanted - counts, 0.0))])
+        # what a bin has too much or too little by chance is made up for by its neighbours
+        lacking = np.maximum.accumulate(np.concatenate([[0.0], np.cumsum(wanted - counts)]))
         # finer particles take the beginning of what is lacking, coarser ones the end
         parting = lacking[-1] * to_come[1] / to_come.sum()
         bounds = ((parting, lacking[-1]), (0.0, parting))
@@ -80,14 +82,15 @@ class SizeKeeper:
         on_front = np.bincount(self.part[law], minlength=2)
         so_far = np.bincount(self.part, queues.n_placed, 2) - 0.5 * on_front
         below = self._area_below(placed.disc[members])
-        density = np.where(
-            so_far >= ENOUGH_TO_COUNT,
-            so_far / np.maximum(below, np.finfo(float).tiny),
-            self.density,
-        )
+        counted = (so_far >= ENOUGH_TO_COUNT) & (below > 0.0)
+        if counted.any():
+            found = so_far[counted] / below[counted]
+            # a part without particles is filled like the other
+            self.density *= np.mean(found / self.density[counted])
+            self.density[counted] = found
         left = self.columns.area_below[:, -1].sum(axis=1) - below
         # never nothing: the last particles need a size too
-        return np.maximum(density * left - 0.5 * on_front, 1.0)
+        return np.maximum(self.density * left - 0.5 * on_front, 1.0)
 
     def _area_below(self, disc: np.ndarray) -> np.ndarray:
         """Area of the coarser and the finer regions below the line of centres of the front."""
