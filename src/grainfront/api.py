@@ -34,6 +34,8 @@ ImageSource = Photographs | BinaryMasks | LabelMasks
 # The shapes of a random family are the same for every seed, so that packings differ by the packing
 # alone, and one more seed leaves the database as it is.
 SHAPES_SEED = 0
+# Begins the names of searches among particles of several regions.
+ARRANGED = "arranged_"
 # A progress bar shows up only on packings that take longer than this.
 SECONDS_BEFORE_BAR = 1.0
 
@@ -223,10 +225,12 @@ def progress_bar() -> Iterator[Callable[[int, float], None] | None]:
 def search(scene: Scene) -> str:
     """How the lowest trials of a scene are found: each search has kernels of its own.
 
-    "exhaustive" or "pruned", or "controlled" where the effort follows a target volume fraction.
+    "exhaustive" or "pruned", or "controlled" where the effort follows a target volume fraction; led
+    by "arranged_" where there are regions.
     """
     from grainfront.packing import search_of
 
+    found = search_of(scene.packing.n_angle, scene.packing.n_loc)
     if scene.target is not None:
-        return "controlled"
-    return search_of(scene.packing.n_angle, scene.packing.n_loc)
+        found = "controlled"
+    return found if scene.arrangement is None else f"{ARRANGED}{found}"

@@ -45,7 +45,8 @@ class Packing:
     Lengths are in the scene's unit, `orientation` in degrees in [0, 180); (`x`, `y`) are centroids
     of the hulls. `polygons` are the hulls as packed or, after the replacement, the outlines; `area`
     and `circumradius` (about (x, y)) are theirs. `shape` indexes the shape database. `left_over`
-    counts the particles that were drawn but found no place.
+    counts the particles that were drawn but found no place. `region` is the region of the scene's
+    arrangement that a particle was drawn for, −1 for the rest of the domain; None without regions.
     """
 
     domain: Rectangle
@@ -59,3 +60,4 @@ class Packing:
     circumradius: np.ndarray
     shape: np.ndarray
     left_over: int
+    region: np.ndarray | None = None

@@ -7,6 +7,8 @@ from dataclasses import replace
 import numpy as np
 
 from grainfront import api
+from grainfront.arrangement.regions import Arrangement, LocalLaws, Region
+from grainfront.arrangement.zones import Circle
 from grainfront.jit import compiling
 from grainfront.laws import Constant, Uniform
 from grainfront.packing import PRUNED_FROM_N_LOC
@@ -19,9 +21,13 @@ from grainfront.shapes.sources import RegularPolygon
 
 def compile_kernels(search: str) -> None:
     """Compile the kernels of a search, one of `api.search`, down to the certificate."""
-    scene, database = _smallest_scene(1 if search == "exhaustive" else PRUNED_FROM_N_LOC)
-    if search == "controlled":
+    plain = search.removeprefix(api.ARRANGED)
+    scene, database = _smallest_scene(1 if plain == "exhaustive" else PRUNED_FROM_N_LOC)
+    if plain == "controlled":
         scene = replace(scene, target=Target(volume_fraction=0.5, tolerance=0.5))
+    if plain != search:
+        laws = LocalLaws(size=Constant(0.5))
+        scene = replace(scene, arrangement=Arrangement((Region(Circle((2.0, 2.0), 1.0), (laws,)),)))
     packing, _ = api.pack(scene, database, seed=0)
     with compiling("certificate"):
         for one in (packing, api.replace(packing, database)):

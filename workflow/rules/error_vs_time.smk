@@ -45,6 +45,7 @@ rule error_vs_time_record:
             "size",
             "matched",
             "orientation",
+            "arrangement",
             "packing",
             "target",
             "error_vs_time",

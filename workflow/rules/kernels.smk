@@ -6,7 +6,7 @@ rule kernels:
     output:
         compiled=touch("results/.{search}.compiled"),
     wildcard_constraints:
-        search="exhaustive|pruned|controlled",
+        search="(arranged_)?(exhaustive|pruned|controlled)",
     # the longest of the first jobs: the shapes are ready before it ends
     priority: 1
     params:

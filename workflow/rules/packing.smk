@@ -8,11 +8,16 @@ def one_of(names):
     return "|".join(names) or "(?!)"
 
 
+def kernels_of(wildcards):
+    """The kernels of the search that a scene needs."""
+    return f"results/.{api.search(SCENES[wildcards.scene])}.compiled"
+
+
 # One packing a seed; the run time has a file of its own, so that equal input gives equal bytes.
 rule packing:
     input:
         database="results/{scene}/shapes.nc",
-        compiled=ancient(lambda w: f"results/.{api.search(SCENES[w.scene])}.compiled"),
+        compiled=ancient(kernels_of),
     output:
         packing="results/{scene}/{seed}/packing.nc",
         timing="results/{scene}/{seed}/timing.json",
@@ -21,7 +26,13 @@ rule packing:
     params:
         scene=lambda wildcards: scene_file(wildcards.scene),
         depends_on=of_scene(
-            "length_unit", "domain", "size", "matched", "orientation", "packing"
+            "length_unit",
+            "domain",
+            "size",
+            "matched",
+            "orientation",
+            "arrangement",
+            "packing",
         ),
         sources=stages.sources_digest("packing"),
     message:
@@ -41,7 +52,7 @@ rule packing_to_target:
     input:
         unpack(contour_of),
         database="results/{scene}/shapes.nc",
-        compiled=ancient("results/.controlled.compiled"),
+        compiled=ancient(kernels_of),
     output:
         packing="results/{scene}/{seed}/packing.nc",
         target="results/{scene}/{seed}/target.nc",
@@ -56,6 +67,7 @@ rule packing_to_target:
             "size",
             "matched",
             "orientation",
+            "arrangement",
             "packing",
             "target",
             "replacement",

@@ -22,6 +22,7 @@ def sweep_depends_on(wildcards):
             "size",
             "matched",
             "orientation",
+            "arrangement",
             "sweep",
             "replacement",
         )

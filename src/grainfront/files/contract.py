@@ -113,6 +113,14 @@ PACKING = Contract(
         "shape": Variable(
             "int64", ("particle",), "1", "index into the shape database", {"geometry": "geometry"}
         ),
+        "region": Variable(
+            "int64",
+            ("particle",),
+            "1",
+            "region that the particle was drawn for, -1 for the rest of the domain",
+            {"geometry": "geometry"},
+            optional=True,
+        ),
     },
     attributes={
         **VERSION,

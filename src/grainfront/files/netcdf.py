@@ -39,6 +39,8 @@ def write_packing(
     Errors: InputError where an array breaks the contract or the folder cannot be written to.
     """
     fields = {name: getattr(packing, name) for name in PARTICLE_FIELDS}
+    if packing.region is not None:
+        fields["region"] = packing.region
     attributes = {
         "scene": scene_text,
         "seed": seed,
@@ -60,6 +62,7 @@ def read_packing(path: Path) -> Packing:
         domain=_from_wkt(path, attributes["domain"]),
         polygons=_open_rings(path, arrays),
         left_over=attributes["left_over"],
+        region=arrays.get("region"),
         **{name: arrays[name] for name in PARTICLE_FIELDS},
     )
 

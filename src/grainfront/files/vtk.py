@@ -18,8 +18,9 @@ def write_vtp(path: str | os.PathLike[str], packing: Packing) -> None:
     """Write one cell a particle, in the plane z = 0, with the data of the particles on the cells.
 
     The nodes keep all their bits; equal packings give equal bytes. Cell data: size, aspect_ratio,
-    orientation (degree), area, circumradius, shape and particle (the order of placement). Errors:
-    InputError where the name does not end in .vtp or the folder cannot be written to.
+    orientation (degree), area, circumradius, shape, particle (the order of placement) and, where
+    there are regions, region. Errors: InputError where the name does not end in .vtp or the folder
+    cannot be written to.
     """
     if not os.fspath(path).endswith(".vtp"):
         raise InputError(f"{path}: VTK polygon data need a name that ends in .vtp")
@@ -31,6 +32,8 @@ def write_vtp(path: str | os.PathLike[str], packing: Packing) -> None:
     mesh.cell_data["particle"] = np.arange(polygons.count)
     for name in CELL_FIELDS:
         mesh.cell_data[name] = getattr(packing, name)
+    if packing.region is not None:
+        mesh.cell_data["region"] = packing.region
     mesh.set_active_scalars("size")
     with replacing(path) as temporary:
         mesh.save(temporary)

@@ -36,6 +36,10 @@ INTEGRATION_AREAS = 4.0 / (RISE * GAIN)
 # is gone in volume fraction too.
 KNEE, KNEE_OF_ANGLE = 0.35, 0.56
 FULL_TURN = 2.0 * math.pi
+# Least share of a turn that a placement adds to what lies under a particle of the pair. Small ones
+# sink between large ones by less than a quarter turn, and none is put farther than three quarters
+# round a particle.
+OF_THE_PAIR = -0.25
 
 
 class Control(NamedTuple):
@@ -153,12 +157,15 @@ def polygon_of_centres(control, front, placed, domain, i, k, x, y, solid):
 
 
 @inlined
-def sector(ring, before, n, after):
-    """Share of a full turn, counter-clockwise, from the corner after n to the one before it."""
+def sector(ring, before, n, after, least):
+    """Share of a full turn, counter-clockwise, from the corner after n to the one before it.
+
+    Of the shares that differ by whole turns, that from `least` to `least` + 1.
+    """
     ax, ay = ring[after, 0] - ring[n, 0], ring[after, 1] - ring[n, 1]
     bx, by = ring[before, 0] - ring[n, 0], ring[before, 1] - ring[n, 1]
     turn = math.atan2(cross(ax, ay, bx, by), ax * bx + ay * by) / FULL_TURN
-    return turn if turn >= 0.0 else turn + 1.0
+    return turn if turn >= least else turn + 1.0
 
 
 @inlined
@@ -175,7 +182,10 @@ def account(control, supply, front, placed, domain, source, number, x, y, i, k):
         after = n + 1 if n + 1 < count else 0
         doubled += cross(ring[n, 0] - x, ring[n, 1] - y, ring[after, 0] - x, ring[after, 1] - y)
         if ring[n, 2] > 0.0:
-            solid += ring[n, 2] * sector(ring, before, n, after)
+            # the pair stays on the front and loses what lies under it where the new particle sinks
+            # in between; what is buried, and the new particle, have nothing to lose
+            least = OF_THE_PAIR if n == 0 or n == count - 2 else 0.0
+            solid += ring[n, 2] * sector(ring, before, n, after, least)
     tally = control.tally
     tally[ENCLOSED] += 0.5 * doubled
     tally[SOLID] += solid

@@ -71,7 +71,8 @@ def pack_to_fraction(
     the target is returned; `Attempts.reached` tells whether it is close enough. This is ours: Du et
     al. (2023), section 4.3.4, choose n_angle and n_loc from a map.
     """
-    with compiling("controlled search") as compilation:
+    arranged = "" if empty.arrangement is None else "arranged "
+    with compiling(f"{arranged}controlled search") as compilation:
         make_ready(empty, particle_area)
     steering = Steering(empty, particle_area, rng)
     # what the top lacks differs from start to start: the next expects the mean of those before

@@ -60,7 +60,9 @@ def fill(
     progress: Callable[[int, float], None] | None = None,
 ) -> tuple[Packing, RunTime]:
     """Pack the particles of an empty packing until its domain is full; see `pack_hulls`."""
-    with compiling(f"{search_of(empty.n_angle, empty.n_loc)} search") as compilation:
+    arranged = "" if empty.arrangement is None else "arranged "
+    search = search_of(empty.n_angle, empty.n_loc)
+    with compiling(f"{arranged}{search} search") as compilation:
         empty.advance_to(0)
     kernel_s = run(empty, empty.supply.size.size, progress)
     return as_packing(empty, aspect_ratio), RunTime(kernel_s, compilation.seconds)

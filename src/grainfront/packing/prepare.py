@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from grainfront.geometry.placing import radii_about_origin
+from grainfront.geometry.regions import REST
 from grainfront.geometry.rings import polygon_areas
 from grainfront.packing import search_of
 from grainfront.packing.advance import (
@@ -99,6 +100,7 @@ class State(NamedTuple):
             queues=Queues(*(array.copy() for array in self.queues)),
             supply=self.supply._replace(size=self.supply.size.copy()),
             counters=self.counters.copy(),
+            keeper=None if self.keeper is None else self.keeper.copy(),
         )
 
     def steered(self, control: Control, rng: np.random.Generator) -> State:
@@ -228,4 +230,13 @@ def as_packing(state: State, aspect_ratio: np.ndarray) -> Packing:
         circumradius=circumradius,
         shape=shape,
         left_over=int(state.queues.n_waiting.sum() + state.counters[N_TOO_LARGE]),
+        region=None if state.arrangement is None else _region(state, source),
     )
+
+
+def _region(state: State, source: np.ndarray) -> np.ndarray:
+    """The regions that particles of the supply were drawn for, −1 for the rest of the domain."""
+    arrangement = state.arrangement
+    assert arrangement is not None, "there are no regions"
+    region = arrangement.region_of_law[np.searchsorted(state.queues.last, source, side="right")]
+    return np.where(region == arrangement.first_law.size - 2, REST, region)

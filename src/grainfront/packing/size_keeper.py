@@ -50,6 +50,12 @@ class SizeKeeper:
         self.columns, self.density = columns, density
         self.probability = np.zeros(level.size)
 
+    def copy(self) -> SizeKeeper:
+        """The same keeper, for a packing that is continued in another way."""
+        other = SizeKeeper(self.quantile, self.part, self.level, self.columns, self.density.copy())
+        other.probability = self.probability.copy()
+        return other
+
     def share_out(self, front: Front, placed: Placed, queues: Queues, supply: Supply) -> None:
         """Give the particles that are yet to be drawn the sizes that the law still lacks."""
         to_come = self._to_come(front, placed, queues)

@@ -7,33 +7,36 @@ from pathlib import Path
 
 _PACKAGE = Path(__file__).parents[1]
 _ALWAYS = (
-    "__init__", "api", "checked_yaml", "errors", "particles", "polygons", "scene", "scene_packing",
-    "stages",
+    "__init__", "api", "arrangement.regions", "arrangement.zones", "checked_yaml", "errors",
+    "particles", "polygons", "scene", "scene_arrangement", "scene_laws", "scene_packing", "stages",
 )  # fmt: skip
 _FILES = ("files.atomic", "files.contract", "files.dataset", "files.header", "files.netcdf")
 _DATABASE = ("shapes.database", "shapes.descriptors")
+_REGIONS = ("arrangement", "scene_regions")
 _LAWS = ("laws", "shapes.sources", *_ALWAYS)
 SOURCES = {
     "shapes": ("draw", "shapes", "laws", *_FILES, *_ALWAYS),
-    "packing": ("draw", "geometry", "jit", "packing", *_DATABASE, *_FILES, *_LAWS),
+    "packing": (
+        "draw", "geometry", "jit", "packing", *_REGIONS, *_DATABASE, *_FILES, *_LAWS,
+    ),
     "packing_to_target": (
-        "draw", "geometry", "jit", "packing", "files.contour", "files.target", *_DATABASE, *_FILES,
-        *_LAWS,
+        "draw", "geometry", "jit", "packing", "files.contour", "files.target", *_REGIONS,
+        *_DATABASE, *_FILES, *_LAWS,
     ),
     "replacement": ("geometry", "jit", "replacement", *_DATABASE, *_FILES, *_LAWS),
     "contacts": ("geometry", "jit", "statistics", *_FILES, *_LAWS),
     "statistics": (
-        "certificate", "geometry", "jit", "statistics", "files.statistics", *_DATABASE,
+        "certificate", "geometry", "jit", "statistics", "files.statistics", *_REGIONS, *_DATABASE,
         *_FILES, *_LAWS,
     ),
     "sweep": (
         "draw", "geometry", "jit", "packing", "statistics", "studies.sweep", "files.contour",
-        *_DATABASE, *_FILES, *_LAWS,
+        *_REGIONS, *_DATABASE, *_FILES, *_LAWS,
     ),
     "contour_picture": ("figures", "files.contour", *_FILES, *_LAWS),
     "error_vs_time": (
         "certificate", "draw", "geometry", "jit", "packing", "replacement", "shapes", "statistics",
-        "studies", "files.error_vs_time", *_FILES, *_LAWS,
+        "studies", "files.error_vs_time", *_REGIONS, *_FILES, *_LAWS,
     ),
     "error_vs_time_picture": ("figures", "files.error_vs_time", *_FILES, *_LAWS),
     "vtk": ("files.vtk", *_FILES, *_LAWS),

@@ -72,13 +72,14 @@ class PilotScale:
 
 
 def pack_pilot(scale: PilotScale, n_angle: int, n_loc: int, height: float, seed: int) -> Pilot:
-    """Pack a pilot of `height` square roots of the mean hull area."""
+    """Pack a pilot of `height` square roots of the mean hull area, without the scene's regions."""
     scene, database = scale.scene, scale.database
     part = replace(
         scene,
         packing=replace(scene.packing, n_angle=n_angle, n_loc=n_loc),
         domain=scale.domain(height),
         target=None,
+        arrangement=None,  # regions have their place in the whole domain
     )
     packing, run_time = api.pack(part, database, seed)
     share = 1.0

@@ -56,7 +56,14 @@ def points(scene: Scene) -> list[Point]:
 def searches(scene: Scene) -> list[str]:
     """The searches that the pairs of a sweep need, each with kernels of its own."""
     sweep = sweep_of(scene)
-    return sorted({search_of(*pair) for pair in product(sweep.n_angle, sweep.n_loc)})
+    pairs = product(sweep.n_angle, sweep.n_loc)
+    return sorted({api.search(_with_effort(scene, *pair)) for pair in pairs})
+
+
+def _with_effort(scene: Scene, n_angle: int, n_loc: int) -> Scene:
+    """The scene at a pair of efforts, its target left out of account."""
+    effort = PackingEffort(n_angle, n_loc, scene.packing.n_bin)
+    return dataclasses.replace(scene, packing=effort, target=None)
 
 
 def estimated_seconds(scene: Scene, point: Point) -> float:
@@ -112,8 +119,7 @@ def measure_point(scene: Scene, database: ShapeDatabase, point: Point) -> dict[s
     Beside them `kernel_s`, the seconds of one core spent packing. A prescribed volume fraction is
     left out of account: the map shows what the efforts give. Raises InputError as `api.pack` does.
     """
-    effort = PackingEffort(point.n_angle, point.n_loc, scene.packing.n_bin)
-    at_point = dataclasses.replace(scene, packing=effort, target=None)
+    at_point = _with_effort(scene, point.n_angle, point.n_loc)
     packing, run_time = api.pack(at_point, database, point.seed)
     measured = api.measure(at_point, database, packing)
     numbers: dict[str, float] = {

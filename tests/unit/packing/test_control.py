@@ -15,12 +15,15 @@ from grainfront.particles import Rectangle
 from grainfront.polygons import Polygons
 
 
-def steered(corners, particles, seed, aim=0.75):
-    """A packing of some polygons with an effort left to the controller, `particles` placed."""
+def steered(corners, particles, seed, aim=0.75, smallest=0.5):
+    """A packing of some polygons with an effort left to the controller, `particles` placed.
+
+    Their sizes go from `smallest` to 1, each range of a factor with as many.
+    """
     angle = 2.0 * np.pi * np.arange(corners) / corners
     hull = np.column_stack([np.cos(angle), np.sin(angle)]) / 1.8
     rng = np.random.default_rng(seed)
-    size = rng.uniform(0.5, 1.0, 200)
+    size = smallest ** rng.random(2000)
     empty = prepare(
         Polygons.of([hull]),
         np.zeros(size.size, dtype=np.int64),
@@ -65,9 +68,12 @@ def line_of_the_front(state):
 
 
 @pytest.mark.parametrize("corners", [3, 4, 7])
-@pytest.mark.parametrize("particles", [1, 2, 5, 12, 30, 45])
-def test_the_account_is_that_of_the_polygon_below_the_front(corners, particles):
-    state = steered(corners, particles, seed=corners)
+@pytest.mark.parametrize(
+    ("particles", "smallest"),
+    [*((n, 0.5) for n in (1, 2, 5, 12, 30, 45)), (100, 0.05), (250, 0.05), (250, 0.02)],
+)
+def test_the_account_is_that_of_the_polygon_below_the_front(corners, particles, smallest):
+    state = steered(corners, particles, seed=corners, smallest=smallest)
     points, owner = line_of_the_front(state)
     walls = state.domain
     corners_below = [(walls.x_max, walls.y_min), (walls.x_min, walls.y_min)]

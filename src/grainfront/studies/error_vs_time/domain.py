@@ -36,8 +36,9 @@ def measure_domain(
     """Pack square-root-scaled copies of the domain, plainly and at the scene's own effort.
 
     They are for about `fewest` particles up to `most`, or `most_plain` for the plain advancing
-    front. The error is the wall effect: volume fraction of the bulk less that of the whole, of
-    the hulls. Cost grows as N to the power `exponent`, fitted by least squares of the logarithms.
+    front. Regions, which have their place in the scene's own domain, are left out. The error is the
+    wall effect: volume fraction of the bulk less that of the whole, of the hulls. Cost grows as N
+    to the power `exponent`, fitted by least squares of the logarithms.
     """
     own = (scene.packing.n_angle, scene.packing.n_loc)
     efforts = sorted({(1, 1), own})
@@ -45,7 +46,7 @@ def measure_domain(
     for effort in efforts:
         largest = most_plain if effort == (1, 1) else most
         for domain in _domains(scene, database, fewest, largest):
-            sized = replace(with_effort(scene, *effort), domain=domain)
+            sized = replace(with_effort(scene, *effort), domain=domain, arrangement=None)
             points.append(Point(sized, database))
             effort_of.append(effort)
     found = run(points, seeds, repeats, _observe)
