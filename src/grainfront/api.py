@@ -19,6 +19,7 @@ from grainfront.scene import load_scene as load_scene
 from grainfront.scene_packing import pack as pack
 from grainfront.scene_packing import pack_to_target as pack_to_target
 from grainfront.scene_packing import shape_coverage as shape_coverage
+from grainfront.scene_statistics import measure as measure
 from grainfront.shapes.sources import BinaryMasks, LabelMasks, Photographs, ShapeSource
 
 if TYPE_CHECKING:
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
     from grainfront.packing.fraction import Attempts
     from grainfront.particles import Packing
     from grainfront.shapes.database import ShapeDatabase
-    from grainfront.statistics import Contacts, OrientationRose, PackingStatistics
+    from grainfront.statistics import Contacts, OrientationRose
 
 ImageSource = Photographs | BinaryMasks | LabelMasks
 
@@ -98,22 +99,6 @@ def volume_fraction_of_outlines(packing: Packing, database: ShapeDatabase) -> fl
     """Volume fraction that packed hulls have once their outlines have replaced them."""
     area = database.descriptors["area"][packing.shape] * packing.size**2
     return float(area.sum() / packing.domain.area)
-
-
-def measure(scene: Scene, database: ShapeDatabase, packing: Packing) -> PackingStatistics:
-    """Measure fractions, contacts and segregation, and compare what was placed with the laws.
-
-    Raises InputError for a packing without particles.
-    """
-    from grainfront import statistics
-
-    laws = {"size": (packing.size, *scene.size.bins(statistics.N_BIN))}
-    if scene.matched is not None:
-        name, law = scene.matched
-        placed = database.descriptors[name][packing.shape]
-        laws[name] = (placed, *law.bins(statistics.N_BIN))
-    laws["orientation"] = (packing.orientation, *scene.orientation.bins(statistics.N_BIN))
-    return statistics.measure(packing, laws)
 
 
 def contact_rose(contacts: Contacts) -> OrientationRose | None:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from grainfront.arrangement.regions import Arrangement as Regions
+from grainfront.errors import InputError
 from grainfront.laws import Law, Truncated
 from grainfront.scene import Scene
 
@@ -16,6 +18,8 @@ if TYPE_CHECKING:
     from grainfront.geometry.regions import RegionMap
     from grainfront.packing.size_keeper import SizeKeeper
 
+# The parts of a size law that is parted between regions.
+COARSER, FINER = 0, 1
 # Points along the longer side of the domain, at which regions and their areas are counted.
 AREA_POINTS = 500
 # Points of the integral over the size law; the parting is that exact.
@@ -26,13 +30,17 @@ VOLUME_FRACTION = 0.8
 
 @dataclass(frozen=True)
 class RegionLaws:
-    """The laws of one stratum of a region, and the area in which they hold."""
+    """The laws of one stratum of a region, and the area in which they hold.
+
+    `part` tells which part of the scene's size law it takes: FINER, COARSER, or None for all of it
+    or a law of its own.
+    """
 
     region: int
     size: Law
     matched: tuple[str, Law] | None
     orientation: Law
-    finer: bool
+    part: int | None
     area: float
 
 
@@ -57,7 +65,8 @@ class Plan:
 def plan(scene: Scene) -> Plan:
     """The laws of all strata of all regions, and last of the rest of the domain.
 
-    Raises InputError where a region lies outside the domain.
+    Raises InputError where a region lies outside the domain, and where a part of the size law has
+    no place in it.
     """
     from grainfront.arrangement.build import region_map
 
@@ -66,19 +75,28 @@ def plan(scene: Scene) -> Plan:
     x, height, area_below = _areas(scene, regions)
     area = area_below[:, -1].sum(axis=1)
     laws = _laws(scene, scene.arrangement, area)
-    finer = np.array([law.finer for law in laws])
-    if not finer.any():
-        return Plan(regions, tuple(laws), x, height, area_below, None)
+    if all(law.part is None for law in laws):
+        return Plan(regions, laws, x, height, area_below, None)
+    coarser, finer = (sum(law.area for law in laws if law.part == p) for p in (COARSER, FINER))
+    for part, found in (("finer", finer), ("coarser", coarser)):
+        if not found:
+            raise InputError(
+                f"{scene.name}: arrangement leaves no place in the domain for the {part} part of "
+                "the sizes, but both parts must have one"
+            )
     critical, parting = scene.arrangement.critical_size, None
     if critical is None:
-        parting = _parting(scene.size, area[finer].sum() / area.sum())
+        parting = _parting(scene.size, finer / (finer + coarser))
         critical = float(scene.size.quantile(parting))
+    return Plan(regions, parted(scene, laws, critical), x, height, area_below, parting)
+
+
+def parted(scene: Scene, laws: Sequence[RegionLaws], critical: float) -> tuple[RegionLaws, ...]:
+    """The laws, those that take a part of the scene's size law with it parted at `critical`."""
     parts = Truncated(scene.size, minimum=critical), Truncated(scene.size, maximum=critical)
-    laws = [
-        dataclasses.replace(law, size=parts[law.finer]) if law.size is scene.size else law
-        for law in laws
-    ]
-    return Plan(regions, tuple(laws), x, height, area_below, parting)
+    return tuple(
+        law if law.part is None else dataclasses.replace(law, size=parts[law.part]) for law in laws
+    )
 
 
 def keeper(
@@ -89,15 +107,16 @@ def keeper(
     `size` (n,) are those of the particles, one law's after the other's, `last` (n_laws,) where each
     ends; `hull_area` is the mean of size 1.
     """
-    from grainfront.packing.size_keeper import Columns, SizeKeeper
+    from grainfront.packing.size_keeper import NO_PART, Columns, SizeKeeper
 
     if found.parting is None:
         return None
     parts = np.split(size, last[:-1])
     level = [law.size.cdf(one) for law, one in zip(found.laws, parts, strict=True)]
-    part = np.array([int(law.finer) for law in found.laws])
+    part = np.array([NO_PART if law.part is None else law.part for law in found.laws])
     area = np.array([found.area_below[part == p].sum(axis=0) for p in (0, 1)])
-    particles = VOLUME_FRACTION * scene.domain.area / (hull_area * scene.size.moment(2))
+    solid = VOLUME_FRACTION * area[:, -1].sum()
+    particles = solid / (hull_area * scene.size.moment(2))
     share = np.array([1.0 - found.parting, found.parting])
     return SizeKeeper(
         scene.size.quantile,
@@ -108,13 +127,13 @@ def keeper(
     )
 
 
-def _laws(scene: Scene, arrangement: Regions, area: np.ndarray) -> list[RegionLaws]:
+def _laws(scene: Scene, arrangement: Regions, area: np.ndarray) -> tuple[RegionLaws, ...]:
     """The laws of all strata and of the rest, the size law not parted yet."""
-    parted = [region.finer for region in arrangement.regions if region.finer is not None]
-    rest_is_finer = bool(parted) and not parted[0]
+    asked = [region.finer for region in arrangement.regions if region.finer is not None]
+    part_of_rest = (FINER, COARSER)[asked[0]] if asked else None
     found: list[RegionLaws] = []
     for number, region in enumerate(arrangement.regions):
-        finer = rest_is_finer if region.finer is None else region.finer
+        part = part_of_rest if region.finer is None else (COARSER, FINER)[region.finer]
         for local in region.strata:
             found.append(
                 RegionLaws(
@@ -122,7 +141,7 @@ def _laws(scene: Scene, arrangement: Regions, area: np.ndarray) -> list[RegionLa
                     local.size or scene.size,
                     local.matched or scene.matched,
                     local.orientation or scene.orientation,
-                    finer and local.size is None,
+                    part if local.size is None else None,
                     float(area[len(found)]),
                 )
             )
@@ -131,10 +150,10 @@ def _laws(scene: Scene, arrangement: Regions, area: np.ndarray) -> list[RegionLa
         scene.size,
         scene.matched,
         scene.orientation,
-        rest_is_finer,
+        part_of_rest,
         float(area[-1]),
     )
-    return [*found, rest]
+    return (*found, rest)
 
 
 def _areas(scene: Scene, regions: RegionMap) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

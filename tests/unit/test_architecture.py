@@ -66,7 +66,17 @@ MAY_IMPORT_TYPES = {"files": ("shapes.database", "statistics", "certificate")}
 # And of these only for the type checker, under `if TYPE_CHECKING`.
 MAY_NAME_TYPES = {"figures": ("shapes.database", "statistics", "certificate")}
 # They tie the stages together, and nothing else may import them.
-TIES = {"__init__", "api", "cli", "stages", "studies", "warm_up", "scene_packing", "scene_regions"}
+TIES = {
+    "__init__",
+    "api",
+    "cli",
+    "stages",
+    "studies",
+    "warm_up",
+    "scene_packing",
+    "scene_regions",
+    "scene_statistics",
+}
 
 LIBRARIES = {
     "numpy": ("",),

@@ -254,12 +254,60 @@ SEED_FRACTIONS = _of(
     size_correlation_noise_level=("1", "standard deviation of these if size and place are random"),
 )
 
+
+def _region_law(law: str) -> dict[str, Variable]:
+    """How far what was placed in each region is from the laws that hold there."""
+    name, each = law.replace("_", " "), ("seed", "region")
+    rows = {
+        f"region_{law}_l2_error": (each, f"E2 of the {name} in the region against its own law"),
+        f"region_{law}_noise_level": (each, f"E2 of the {name} there under independent sampling"),
+        f"{law}_forced_l2_error": (
+            ("seed",),
+            f"E2 of the {name} of the whole if each region followed its own law exactly",
+        ),
+    }
+    return {
+        key: Variable("double", dimensions, "1", text, finite=False, optional=True)
+        for key, (dimensions, text) in rows.items()
+    }
+
+
+def _regions() -> dict[str, Variable]:
+    """What was placed in each region; NaN where there is nothing to be told."""
+    each = ("seed", "region")
+    return {
+        "region_area": Variable(
+            "double", ("region",), AREA, "area of the region, counted in points", optional=True
+        ),
+        "region_particles": Variable(
+            "int64", each, "1", "particles with their centre in the region", optional=True
+        ),
+        "region_volume_fraction": Variable(
+            "double", each, "1", "area of these particles over area of the region", optional=True
+        ),
+        "region_mean_size": Variable(
+            "double", each, LENGTH, "mean size of these particles", finite=False, optional=True
+        ),
+        "misplaced_share": Variable(
+            "double",
+            ("seed",),
+            "1",
+            "share of particles with their centre in another region than they were drawn for",
+            optional=True,
+        ),
+        **{key: v for law in LAW_UNITS for key, v in _region_law(law).items()},
+    }
+
+
+REGION_VARIABLES = _regions()
+
 STATISTICS = Contract(
     name="statistics",
     title="Statistics of the packings of a scene",
     dimensions={
         "seed": "packings of the scene",
         "contact_count": "contacts of one particle: 0, 1, 2 ...",
+        "region": "regions of the arrangement, the rest of the domain last",
         "rose_bin": "bins of the orientation rose",
         "rose_bin_edge": "edges of the bins of the orientation rose",
         **{
@@ -289,6 +337,7 @@ STATISTICS = Contract(
             optional=True,
         ),
         **{key: v for law, units in LAW_UNITS.items() for key, v in _law(law, units).items()},
+        **REGION_VARIABLES,
     },
     attributes={**VERSION, **SCENE},
 )  # fmt: skip

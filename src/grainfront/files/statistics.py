@@ -8,9 +8,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from grainfront.certificate import Certificate
-from grainfront.files.contract import LAW_UNITS, SEED_COUNTS, SEED_FRACTIONS, STATISTICS
+from grainfront.files.contract import (
+    LAW_UNITS,
+    REGION_VARIABLES,
+    SEED_COUNTS,
+    SEED_FRACTIONS,
+    STATISTICS,
+)
 from grainfront.files.dataset import Path, read_dataset, write_dataset
 from grainfront.statistics import Distribution, OrientationRose, PackingStatistics
+from grainfront.statistics.regions import RegionStatistics
 
 CERTIFICATE_COUNTS = ("pairs_tested", "pairs_exact", "overlaps", "across_wall")
 
@@ -22,7 +29,8 @@ class SceneStatistics:
     `seeds` has the shape (n_seeds,). `values` maps the name of each number (volume_fraction,
     coordination_number, overlaps ...) to an array of that shape. `contact_shares` has the shape
     (n_seeds, largest number of contacts + 1). `distributions` and `orientation_roses` have one
-    entry a seed; bins and prescribed probabilities are the same in all of them.
+    entry a seed; bins and prescribed probabilities are the same in all of them. `regions` holds
+    what was found in the regions of an arrangement, under the names of the contract.
     """
 
     seeds: np.ndarray
@@ -30,6 +38,7 @@ class SceneStatistics:
     contact_shares: np.ndarray
     distributions: tuple[dict[str, Distribution], ...]
     orientation_roses: tuple[OrientationRose, ...]
+    regions: dict[str, np.ndarray]
 
     @classmethod
     def of(
@@ -50,6 +59,7 @@ class SceneStatistics:
             ),
             distributions=tuple(m.distributions for m in measured),
             orientation_roses=tuple(m.orientation_rose for m in measured),
+            regions=_regions([m.regions for m in measured if m.regions is not None]),
         )
 
 
@@ -61,6 +71,30 @@ def _numbers(measured: PackingStatistics, certificate: Certificate) -> dict[str,
                 for name in ("x", "y", "centre", "noise_level")}  # fmt: skip
     rest = (SEED_COUNTS.keys() | SEED_FRACTIONS) - numbers.keys()
     return numbers | {name: getattr(measured, name) for name in rest}
+
+
+def _regions(found: Sequence[RegionStatistics]) -> dict[str, np.ndarray]:
+    """What was found in the regions by each seed, under the names of the contract."""
+    if not found:
+        return {}
+    arrays = {
+        "region_area": found[0].area,
+        "misplaced_share": np.array([each.misplaced for each in found]),
+        **{
+            f"region_{name}": np.stack([getattr(each, name) for each in found])
+            for name in ("particles", "volume_fraction", "mean_size")
+        },
+    }
+    for law in LAW_UNITS:
+        of_law = [[region.get(law) for region in each.distributions] for each in found]
+        if any(one for each in of_law for one in each):
+            for name in ("l2_error", "noise_level"):
+                arrays[f"region_{law}_{name}"] = np.array(
+                    [[getattr(one, name, np.nan) for one in each] for each in of_law]
+                )
+        if law in found[0].forced:
+            arrays[f"{law}_forced_l2_error"] = np.array([each.forced[law] for each in found])
+    return arrays
 
 
 def write_statistics(
@@ -77,6 +111,7 @@ def write_statistics(
         "contact_share": statistics.contact_shares,
         "rose_bin_edges": roses[0].edges,
         "rose_share": np.stack([rose.shares for rose in roses]),
+        **statistics.regions,
     }
     if roses[0].probabilities is not None:
         arrays["rose_probability"] = roses[0].probabilities
@@ -112,6 +147,7 @@ def read_statistics(path: Path) -> SceneStatistics:
             )
             for i in seeds
         ),
+        regions={name: arrays[name] for name in REGION_VARIABLES if name in arrays},
     )
 
 

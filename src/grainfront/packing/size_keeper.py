@@ -22,6 +22,10 @@ N_BIN = 480
 ENOUGH_TO_COUNT = 200
 
 
+# The part of laws with sizes of their own, which are left alone.
+NO_PART = -1
+
+
 class Columns(NamedTuple):
     """How the area of the coarser and of the finer regions is spread over upright columns."""
 
@@ -34,8 +38,9 @@ class SizeKeeper:
     """Shares out the sizes yet to be drawn between the laws of coarser and of finer particles.
 
     `quantile` is that of the size law of the whole. `part` (n_laws,) is 1 for laws that take its
-    finer part, 0 for the others; `level` (n,) is the probability of each particle of the supply
-    within its part. `density` (2,) guesses the particles on each unit of area of the parts.
+    finer part, 0 for its coarser part, or NO_PART; `level` (n,) is the probability of each particle
+    of the supply within its part. `density` (2,) guesses the particles on each unit of area of the
+    parts.
     """
 
     def __init__(
@@ -60,8 +65,9 @@ class SizeKeeper:
         """Give the particles that are yet to be drawn the sizes that the law still lacks."""
         to_come = self._to_come(front, placed, queues)
         first = np.concatenate([[0], queues.last[:-1]])
+        kept = self.part != NO_PART
         drawn = np.concatenate(
-            [self.probability[a:b] for a, b in zip(first, queues.drawn, strict=True)]
+            [self.probability[a:b] for a, b in zip(first[kept], queues.drawn[kept], strict=True)]
         )
         wanted = (drawn.size + to_come.sum()) / N_BIN
         counts = np.histogram(drawn, N_BIN, (0.0, 1.0))[0]
@@ -70,7 +76,8 @@ class SizeKeeper:
         # finer particles take the beginning of what is lacking, coarser ones the end
         parting = lacking[-1] * to_come[1] / to_come.sum()
         bounds = ((parting, lacking[-1]), (0.0, parting))
-        for part, start, end in zip(self.part, queues.drawn, queues.last, strict=True):
+        kept_laws = zip(self.part[kept], queues.drawn[kept], queues.last[kept], strict=True)
+        for part, start, end in kept_laws:
             low, high = bounds[part]
             mass = low + self.level[start:end] * (high - low)
             self.probability[start:end] = np.interp(mass, lacking, np.linspace(0.0, 1.0, N_BIN + 1))
@@ -85,8 +92,9 @@ class SizeKeeper:
         members = np.concatenate([back, ahead])
         members = members[members >= 0]
         law = np.searchsorted(queues.last, placed.source[members], side="right")
-        on_front = np.bincount(self.part[law], minlength=2)
-        so_far = np.bincount(self.part, queues.n_placed, 2) - 0.5 * on_front
+        on_front = np.array([np.sum(self.part[law] == part) for part in (0, 1)])
+        so_far = np.array([queues.n_placed[self.part == part].sum() for part in (0, 1)])
+        so_far = so_far - 0.5 * on_front
         below = self._area_below(placed.disc[members])
         counted = (so_far >= ENOUGH_TO_COUNT) & (below > 0.0)
         if counted.any():

@@ -8,7 +8,8 @@ from pathlib import Path
 _PACKAGE = Path(__file__).parents[1]
 _ALWAYS = (
     "__init__", "api", "arrangement.regions", "arrangement.zones", "checked_yaml", "errors",
-    "particles", "polygons", "scene", "scene_arrangement", "scene_laws", "scene_packing", "stages",
+    "particles", "polygons", "scene", "scene_arrangement", "scene_laws", "scene_packing",
+    "scene_statistics", "stages",
 )  # fmt: skip
 _FILES = ("files.atomic", "files.contract", "files.dataset", "files.header", "files.netcdf")
 _DATABASE = ("shapes.database", "shapes.descriptors")

@@ -18,6 +18,7 @@ from grainfront.statistics.distributions import (
     wrap_orientation,
 )
 from grainfront.statistics.fractions import void_ratio, volume_fraction, volume_fraction_bulk
+from grainfront.statistics.regions import RegionStatistics
 from grainfront.statistics.segregation import SizeCorrelation, size_correlation
 
 Bins = tuple[str | np.ndarray, np.ndarray, np.ndarray]
@@ -31,6 +32,7 @@ class PackingStatistics:
     `contacts_per_particle` has shape (particles,); `contact_shares[k]` is the share of the
     particles that have k contacts. `wall_contacts` counts pairs of a particle and a wall.
     `distributions` maps the name of each prescribed law to its comparison with what was placed.
+    `regions` is None for scenes without an arrangement.
     """
 
     particles: int
@@ -47,6 +49,7 @@ class PackingStatistics:
     distributions: dict[str, Distribution]
     orientation_rose: OrientationRose
     size_correlation: SizeCorrelation
+    regions: RegionStatistics | None = None
 
 
 def measure(packing: Packing, laws: Mapping[str, Bins]) -> PackingStatistics:
