@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 # The parts of a size law that is parted between regions.
 COARSER, FINER = 0, 1
-# Points along the longer side of the domain, at which regions and their areas are counted.
+# Points along the longer side of the domain, at which regions, areas and distances are taken.
 AREA_POINTS = 500
 # Points of the integral over the size law; the parting is that exact.
 PARTING_POINTS = 1 << 14
@@ -125,6 +125,26 @@ def keeper(
         Columns(found.x, found.height, area),
         particles * share / area[:, -1].sum(axis=1),
     )
+
+
+def distances(scene: Scene) -> dict[int, np.ndarray]:
+    """Signed distances over the domain to the zone of each region that has one, by its number.
+
+    Their shape is (rows, columns), the first row at the bottom, first and last values on the walls.
+    """
+    from grainfront.arrangement.build import region_map
+    from grainfront.arrangement.fields import distance_at
+
+    assert scene.arrangement is not None, "there are no regions"
+    field, domain = region_map(scene.arrangement, scene.domain).field, scene.domain
+    step = max(domain.width, domain.height) / AREA_POINTS
+    columns, rows = (max(round(side / step), 1) for side in (domain.width, domain.height))
+    x, y = np.meshgrid(
+        np.linspace(domain.x_min, domain.x_max, columns + 1),
+        np.linspace(domain.y_min, domain.y_max, rows + 1),
+    )
+    zones = [n for n, region in enumerate(scene.arrangement.regions) if region.inside is not None]
+    return {n: distance_at(field, n, x, y) for n in zones}
 
 
 def _laws(scene: Scene, arrangement: Regions, area: np.ndarray) -> tuple[RegionLaws, ...]:

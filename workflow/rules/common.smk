@@ -57,6 +57,17 @@ def has_images(scene):
     return isinstance(scene.shapes, api.ImageSource)
 
 
+def has_zones(scene):
+    regions = scene.arrangement.regions if scene.arrangement else ()
+    return any(region.inside for region in regions)
+
+
+def arrangement_files(wildcards):
+    """The images and files that the zones of a scene come from."""
+    arrangement = SCENES[wildcards.scene].arrangement
+    return sorted(arrangement.files) if arrangement else []
+
+
 def results_of(scene):
     """Every file that a scene asks for."""
     folder = f"results/{scene.name}"
@@ -74,6 +85,7 @@ def results_of(scene):
     if "figures" in scene.outputs:
         pictures = PICTURES + ["photograph"] * has_images(scene)
         pictures += ["contour"] * bool(scene.sweep)
+        pictures += ["arrangement"] * has_zones(scene)
         yield from (f"{folder}/figures/{picture}.png" for picture in pictures)
 
 

@@ -30,6 +30,22 @@ rule photograph:
         "../scripts/photograph.py"
 
 
+# Signed distances to the zones of the regions.
+rule arrangement_picture:
+    input:
+        arrangement_files,
+    output:
+        picture=pictures_of("arrangement"),
+    params:
+        scene=lambda wildcards: scene_file(wildcards.scene),
+        depends_on=of_scene("length_unit", "domain", "arrangement"),
+        sources=stages.sources_digest("arrangement_picture"),
+    message:
+        "{wildcards.scene}: picture of the arrangement"
+    script:
+        "../scripts/arrangement_picture.py"
+
+
 def first_packing(wildcards):
     """What is drawn: the packing of the first seed and, with replacement, its outlines."""
     scene = SCENES[wildcards.scene]

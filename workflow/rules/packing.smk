@@ -16,6 +16,7 @@ def kernels_of(wildcards):
 # One packing a seed; the run time has a file of its own, so that equal input gives equal bytes.
 rule packing:
     input:
+        arrangement_files,
         database="results/{scene}/shapes.nc",
         compiled=ancient(kernels_of),
     output:
@@ -50,6 +51,7 @@ def contour_of(wildcards):
 # The same to a target volume fraction; how it was reached has a file of its own.
 rule packing_to_target:
     input:
+        arrangement_files,
         unpack(contour_of),
         database="results/{scene}/shapes.nc",
         compiled=ancient(kernels_of),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from grainfront.arrangement.zones import Point, Zone
+from grainfront.arrangement.zones import Point, Zone, files_of
 from grainfront.laws import Law
 
 
@@ -62,3 +62,9 @@ class Arrangement:
 
     regions: tuple[Region, ...]
     critical_size: float | None = None
+
+    @property
+    def files(self) -> set[str]:
+        """The images and files of the user's own that zones come from."""
+        zones = (region.inside for region in self.regions if region.inside is not None)
+        return set().union(*map(files_of, zones))

@@ -138,3 +138,15 @@ Zone = (
     | Offset
     | Moved
 )
+
+
+def files_of(zone: Zone) -> set[str]:
+    """The images and files of the user's own that a zone comes from."""
+    match zone:
+        case Silhouette(path) | PolygonsFile(path):
+            return set() if path.startswith(SHIPPED) else {path}
+        case Union(zones) | Intersection(zones) | Difference(zones):
+            return set().union(*map(files_of, zones))
+        case Offset(inner) | Moved(inner):
+            return files_of(inner)
+    return set()

@@ -6,12 +6,19 @@ certificate that does not hold, end the job with one sentence.
 
 from grainfront.stages.error_vs_time import error_vs_time, error_vs_time_picture
 from grainfront.stages.packing import kernels, packing, packing_to_target, replacement, shapes, vtk
-from grainfront.stages.results import contacts, figures, photograph, statistics
+from grainfront.stages.results import (
+    arrangement_picture,
+    contacts,
+    figures,
+    photograph,
+    statistics,
+)
 from grainfront.stages.sources import SOURCES, sources_digest
 from grainfront.stages.sweep import contour, contour_picture, sweep
 
 __all__ = [
     "SOURCES",
+    "arrangement_picture",
     "contacts",
     "contour",
     "contour_picture",

@@ -66,6 +66,23 @@ def photograph(*, scene: str, picture: str) -> None:
 
 
 @stage
+def arrangement_picture(*, scene: str, picture: str) -> None:
+    """Draw the signed distances to the zones of a scene's regions."""
+    from grainfront import figures
+    from grainfront.scene_regions import distances
+
+    loaded = api.load_scene(scene)
+    measured = distances(loaded)
+    figure = figures.signed_distance(
+        list(measured.values()),
+        [f"region {number}" for number in measured],
+        loaded.domain,
+        length_unit=loaded.length_unit,
+    )
+    figures.save_png(figure, picture)
+
+
+@stage
 def figures(
     *,
     length_unit: str,

@@ -40,6 +40,7 @@ SOURCES = {
         "studies", "files.error_vs_time", *_REGIONS, *_FILES, *_LAWS,
     ),
     "error_vs_time_picture": ("figures", "files.error_vs_time", *_FILES, *_LAWS),
+    "arrangement_picture": ("figures", "geometry", "jit", "files.atomic", *_REGIONS, *_LAWS),
     "vtk": ("files.vtk", *_FILES, *_LAWS),
     "figures": (
         "certificate", "figures", "geometry", "jit", "shapes", "statistics", "files.statistics",
