@@ -19,6 +19,7 @@ SUBJECTS = (
     "kernels",
     "packings",
     "pruning",
+    "arrangement",
     "growth",
     "checks",
     "effort",

@@ -17,10 +17,13 @@ SMALL = 20.0
 
 
 def scene_and_shapes(name: str, edge: float | None = None) -> tuple[Scene, ShapeDatabase]:
-    """A scene and its shapes, in a square of another `edge` (in the scene's unit) if given."""
+    """A scene and its shapes, in a square of another `edge` (in the scene's unit) if given.
+
+    Regions have their place in the scene's own domain, and are left out in another.
+    """
     scene, database = _as_it_is(name)
     if edge is not None:
-        scene = replace(scene, domain=Rectangle(0.0, 0.0, edge, edge))
+        scene = replace(scene, domain=Rectangle(0.0, 0.0, edge, edge), arrangement=None)
     return scene, database
 
 

@@ -283,7 +283,12 @@ def _regions() -> dict[str, Variable]:
             "int64", each, "1", "particles with their centre in the region", optional=True
         ),
         "region_volume_fraction": Variable(
-            "double", each, "1", "area of these particles over area of the region", optional=True
+            "double",
+            each,
+            "1",
+            "area of these particles over area of the region",
+            finite=False,
+            optional=True,
         ),
         "region_mean_size": Variable(
             "double", each, LENGTH, "mean size of these particles", finite=False, optional=True

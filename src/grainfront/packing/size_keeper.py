@@ -20,7 +20,7 @@ from grainfront.packing.state import Front, Placed, Queues, Supply
 N_BIN = 480
 # The guess that all parts are filled alike, which was right within 1 %, counts as much as so many
 # particles seen: with few below it, the front is too rough to tell how many there are for an area.
-PARTICLES_GUESSED = 2000
+PARTICLES_GUESSED = 5000
 
 
 # The part of laws with sizes of their own, which are left alone.
@@ -99,7 +99,7 @@ class SizeKeeper:
         below = self._area_below(placed.disc[members])
         left = self.columns.area_below[:, -1].sum(axis=1) - below
         guessed = self.density * below
-        of_all = (so_far.sum() + PARTICLES_GUESSED) / (guessed.sum() + PARTICLES_GUESSED)
+        of_all = max(so_far.sum(), 1.0) / max(guessed.sum(), 1.0)
         of_part = (so_far + PARTICLES_GUESSED) / (of_all * guessed + PARTICLES_GUESSED)
         # never nothing: the last particles need a size too
         return np.maximum(self.density * of_all * of_part * left - 0.5 * on_front, 1.0)

@@ -43,7 +43,7 @@ def measure_regions(
     """Measure the particles of each region.
 
     `region` (n_particles,) is where the centres lie, −1 in the rest of the domain; `area`
-    (n_regions + 1,) is that of the regions. `laws` map, for each of them, a name to (values, edges,
+    (n_regions + 1,) is that of the regions, 0 where nothing is left for one. `laws` map, for each of them, a name to (values, edges,
     probabilities) of its particles. Where a region has none, its mean size is NaN and nothing is
     compared. Raises InputError where the packing was made without regions.
     """
@@ -56,7 +56,7 @@ def measure_regions(
     return RegionStatistics(
         area=area,
         particles=particles,
-        volume_fraction=solid / area,
+        volume_fraction=np.where(area > 0.0, solid / np.where(area > 0.0, area, 1.0), np.nan),
         mean_size=np.where(particles > 0, size / np.maximum(particles, 1), np.nan),
         misplaced=float(np.mean(region != packing.region)),
         distributions=tuple(
