@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from grainfront.geometry.placing import place_polygon
 from grainfront.jit import inlined, kernel
 from grainfront.packing import PRUNED_FROM_N_LOC
@@ -214,7 +216,7 @@ def advance(
             )  # fmt: skip
         if status == RESOLVED:
             if arrangement is not None:
-                pass_over(front, queues, counters, i, k)
+                pass_over(front, queues, counters, i, k, y)
             at_right_wall = k == front_length(front) - 1
             number = counters[N_PLACED]
             if control is not None:
@@ -234,7 +236,7 @@ def advance(
             continue
         counters[N_FAILED] += 1
         if arrangement is not None:
-            pass_over(front, queues, counters, -1, -1)
+            pass_over(front, queues, counters, -1, -1, math.inf)
         if status == TOO_HIGH:
             counters[TOO_HIGH_IN_ROW] += 1
             counters[TURN] += 1

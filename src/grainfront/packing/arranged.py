@@ -110,8 +110,8 @@ def slot_of(passed, member):
 def rough_centre(front, placed, domain, queues, counters, n_loc):
     """Where the next particle is likely to go: the lowest place to rest on the local front.
 
-    Pairs that were passed over, because what was tried found a place elsewhere, do not count while
-    another is left. The pair is noted.
+    A pair that was passed over, because the lowest place of what was tried was elsewhere, counts as
+    no lower than that place. The pair is noted.
     """
     first = max(front.ends[0] - n_loc, 0)
     last = min(front.ends[0] + n_loc - 2, front_length(front) - 2)
@@ -120,16 +120,20 @@ def rough_centre(front, placed, domain, queues, counters, n_loc):
     for i in range(first, last + 1):
         other_x, other_y = rest(front, placed, domain, i)
         back, ahead = member_at(front, i), member_at(front, i + 1)
-        if other_y < lowest and queues.passed[slot_of(queues.passed, back)] != ahead:
-            x, y, lowest = other_x, other_y, other_y
+        height = other_y
+        slot = slot_of(queues.passed, back)
+        if queues.passed[slot] == ahead:
+            height = max(height, queues.least_height[slot])
+        if height < lowest:
+            x, y, lowest = other_x, other_y, height
             counters[REST_BACK] = back
             counters[REST_AHEAD] = ahead
     return x, min(y, domain.y_max)
 
 
 @inlined
-def pass_over(front, queues, counters, i, k):
-    """Note that the pair at which a particle was to rest was not among those it buried."""
+def pass_over(front, queues, counters, i, k, y):
+    """Note at what height a particle came to rest that did not bury the pair it was to rest on."""
     back = counters[REST_BACK]
     position = i
     if back >= 0:
@@ -137,4 +141,6 @@ def pass_over(front, queues, counters, i, k):
     elif back == LEFT_WALL:
         position = 0
     if not i <= position < k:
-        queues.passed[slot_of(queues.passed, back)] = counters[REST_AHEAD]
+        slot = slot_of(queues.passed, back)
+        queues.passed[slot] = counters[REST_AHEAD]
+        queues.least_height[slot] = y

@@ -185,6 +185,7 @@ def _queues(last: np.ndarray, members: int) -> Queues:
         parked=parked,
         n_placed=placed,
         passed=np.full(members, NO_MEMBER),
+        least_height=np.zeros(members),
     )
 
 

@@ -77,6 +77,7 @@ class Queues(NamedTuple):
     parked: np.ndarray  # (n_laws,)
     n_placed: np.ndarray  # (n_laws,)
     passed: np.ndarray  # (n + 3,) of each member: the next one, if what was tried rested elsewhere
+    least_height: np.ndarray  # (n + 3,) and how high that was
 
 
 class Placed(NamedTuple):
