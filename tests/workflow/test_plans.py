@@ -21,7 +21,7 @@ RECTANGLES = {"kernels": 1, "shapes": 1, "packing": 1, "contacts": 1, "statistic
 @pytest.mark.parametrize(
     ("scene", "jobs"),
     [
-        ("river_gravel", PHOTOGRAPH_ALL),
+        ("river_gravel", PHOTOGRAPH_ALL | {"arrangement_picture": 1}),
         ("own_images", PHOTOGRAPH_ALL),
         ("afm_rectangles", RECTANGLES),
         ("oafm_rectangles", RECTANGLES),
@@ -60,6 +60,9 @@ STAGES = {
     "statistics": {"scene": "S", "database": "R/shapes.nc", "seeds": [1],
                    "packings": ["R/1/packing.nc"], "statistics": "O/statistics.nc"},
     "vtk": {"packing": "R/1/packing.nc", "vtp": "O/packing.vtp"},
+    "arrangement_picture": {"scene": "A", "picture": "O/arrangement.png"},
+    "arranged_packing": {"scene": "A", "database": "R/shapes.nc", "seed": 1,
+                         "packing": "O/packing.nc", "timing": "O/timing.json"},
     "figures": {"length_unit": "mm", "hulls": "R/1/packing.nc", "outlines": None,
                 "contacts": "R/1/contacts.nc", "statistics": "R/statistics.nc",
                 "packing_picture": "O/packing.png", "laws_picture": "O/laws.png",
@@ -75,8 +78,18 @@ USES = {
     "contacts": {"numba"},
     "statistics": {"numba"},
     "vtk": {"pyvista", "vtkmodules", "matplotlib"},  # pyvista imports matplotlib
+    "arrangement_picture": {"matplotlib", "numba"},
+    "arranged_packing": {"numba"},
     "figures": {"matplotlib", "numba"},
 }
+
+
+ARRANGEMENT = """
+arrangement:
+  regions:
+    - inside: {circle: {centre: [10, 10], radius: 6}}
+      size: {finer_than: auto}
+"""
 
 
 @pytest.mark.parametrize("stage", STAGES)
@@ -85,6 +98,10 @@ def test_a_stage_imports_what_it_uses_and_its_digest_covers(stage, built, tmp_pa
     places["T"] = str(tmp_path / "targeted.yaml")
     text = (built.folder / places["S"]).read_text(encoding="utf-8")
     Path(places["T"]).write_text(f"{text}target_volume_fraction: 0.7\ntarget_tolerance: 0.01\n")
+
+    places["A"] = str(tmp_path / "arranged.yaml")
+    Path(places["A"]).write_text(f"{text}{ARRANGEMENT}")
+    run_stage = stage.removeprefix("arranged_")
 
     def placed(value):
         if isinstance(value, list):
@@ -97,7 +114,7 @@ def test_a_stage_imports_what_it_uses_and_its_digest_covers(stage, built, tmp_pa
     code = (
         "import json, sys\n"
         "from grainfront import stages\n"
-        f"stages.{stage}(**json.loads(sys.argv[1]))\n"
+        f"stages.{run_stage}(**json.loads(sys.argv[1]))\n"
         "print(json.dumps(sorted(sys.modules)))"
     )
     run = subprocess.run(
@@ -107,7 +124,7 @@ def test_a_stage_imports_what_it_uses_and_its_digest_covers(stage, built, tmp_pa
     assert run.returncode == 0, run.stderr
     modules = json.loads(run.stdout)
     assert {module.split(".")[0] for module in modules} & HEAVY <= USES[stage]
-    assert uncovered(stage, modules) == []
+    assert uncovered(run_stage, modules) == []
 
 
 def uncovered(stage, modules):

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-import math
-
 from grainfront.geometry.placing import place_polygon
 from grainfront.jit import inlined, kernel
 from grainfront.packing import PRUNED_FROM_N_LOC
-from grainfront.packing.arranged import law_at, nth_other_law, pass_over, rough_centre
+from grainfront.packing.arranged import (
+    law_at,
+    nth_other_law,
+    pass_over,
+    put_off,
+    rough_centre,
+)
 from grainfront.packing.control import EFFORT_SUM, account, effort_now, spend
 from grainfront.packing.exhaustive import choose_exhaustively
 from grainfront.packing.front import bury, front_length, move_gap
@@ -236,7 +240,7 @@ def advance(
             continue
         counters[N_FAILED] += 1
         if arrangement is not None:
-            pass_over(front, queues, counters, -1, -1, math.inf)
+            put_off(queues, counters, particle[1])
         if status == TOO_HIGH:
             counters[TOO_HIGH_IN_ROW] += 1
             counters[TURN] += 1

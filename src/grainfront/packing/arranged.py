@@ -128,7 +128,16 @@ def rough_centre(front, placed, domain, queues, counters, n_loc):
             x, y, lowest = other_x, other_y, height
             counters[REST_BACK] = back
             counters[REST_AHEAD] = ahead
+    queues.least_height[slot_of(queues.passed, counters[REST_BACK])] = lowest
     return x, min(y, domain.y_max)
+
+
+@inlined
+def put_off(queues, counters, rise):
+    """Let the pair on which a particle found no place count as that much higher."""
+    slot = slot_of(queues.passed, counters[REST_BACK])
+    queues.passed[slot] = counters[REST_AHEAD]
+    queues.least_height[slot] += rise
 
 
 @inlined

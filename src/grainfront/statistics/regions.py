@@ -43,9 +43,10 @@ def measure_regions(
     """Measure the particles of each region.
 
     `region` (n_particles,) is where the centres lie, −1 in the rest of the domain; `area`
-    (n_regions + 1,) is that of the regions, 0 where nothing is left for one. `laws` map, for each of them, a name to (values, edges,
-    probabilities) of its particles. Where a region has none, its mean size is NaN and nothing is
-    compared. Raises InputError where the packing was made without regions.
+    (n_regions + 1,) is that of the regions, 0 where nothing is left for one. `laws` map, for each
+    of them, a name to (values, edges, probabilities) of its particles. Where a region has none, its
+    mean size is NaN and nothing is compared. Raises InputError where the packing was made without
+    regions.
     """
     if packing.region is None:
         raise InputError("The packing was made without regions, but the scene has an arrangement.")
