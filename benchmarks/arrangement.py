@@ -12,6 +12,7 @@ from grainfront import api
 from grainfront.arrangement.regions import Arrangement, LocalLaws, Region
 from grainfront.arrangement.zones import Polygon
 from grainfront.scene import Scene
+from grainfront.statistics import PackingStatistics
 
 SCENE = "river_gravel"
 SEEDS = 5
@@ -43,8 +44,8 @@ def tables(quick: bool) -> list[Table]:
         cost.append((name, spread.text(), f"{np.median(seconds[name]) / without:.2f}"))
     note = (
         f"Kernel seconds of {packing.x.size:,} grains of {SCENE}, median (least–largest) of "
-        f"{len(seeds)} seeds, and their ratio to those without arrangement. The star has {SEGMENTS} "
-        "segments and the scene's own laws inside and out, so that it costs what regions cost; the "
+        f"{len(seeds)} seeds, and their ratio to those without arrangement. The star has "
+        f"{SEGMENTS} segments and the scene's own laws inside and out, so that it costs what regions cost; the "
         "horse takes the finer grains."
     )
     found = [Table("Arrangement", note, ("arrangement", "seconds", "ratio"), cost)]
@@ -53,7 +54,7 @@ def tables(quick: bool) -> list[Table]:
     return found
 
 
-def _laws_kept(kept: list) -> Table:
+def _laws_kept(kept: list[PackingStatistics]) -> Table:
     """E2 of the size in the horse's scene."""
     rows = [
         (

@@ -10,6 +10,8 @@ from PIL import Image
 
 from grainfront import api, figures
 from grainfront.files.contour import Contour
+from grainfront.scene import Scene
+from grainfront.scene_regions import distances
 from grainfront.shapes.images import find_outlines
 from grainfront.studies import sweep
 
@@ -22,24 +24,43 @@ COLOURS = 256  # a palette: a third of the bytes
 def main() -> None:
     """Pack the gravel and draw the photograph and the packing; draw a contour map."""
     scene = api.load_scene(ROOT / "config" / "scenes" / "river_gravel.yaml")
-    database = api.build_shapes(scene)
-    packing, _ = api.pack(scene, database, scene.seeds[0])
-    outlines = api.replace(packing, database)
     found = find_outlines(scene.shapes)[0]
     draw = {
         "photograph": figures.photograph(
             found.image, found.outlines, title="gravel, from scikit-image"
         ),
-        "packing": figures.packing(
-            packing,
-            outlines,
-            length_unit=scene.length_unit,
-            volume_fractions=[api.volume_fractions(each)[0] for each in (packing, outlines)],
-        ),
+        "packing": packing_of("river_gravel"),
         "contour": contour_map(),
+        "arrangement": zones_of(scene),
+        **{name: packing_of(name) for name in ("cow", "graded_bed", "shear_band")},
     }
     for name, figure in draw.items():
         save_small(figure, IMAGES / f"{name}.png")
+
+
+def zones_of(scene: Scene) -> Figure:
+    """Draw the zones of a scene's regions."""
+    measured = distances(scene)
+    return figures.signed_distance(
+        list(measured.values()),
+        [f"region {number}" for number in measured],
+        scene.domain,
+        length_unit=scene.length_unit,
+    )
+
+
+def packing_of(name: str) -> Figure:
+    """Pack a scene and draw it."""
+    scene = api.load_scene(ROOT / "config" / "scenes" / f"{name}.yaml")
+    database = api.build_shapes(scene)
+    packing, _ = api.pack(scene, database, scene.seeds[0])
+    outlines = api.replace(packing, database)
+    return figures.packing(
+        packing,
+        outlines,
+        length_unit=scene.length_unit,
+        volume_fractions=[api.volume_fractions(each)[0] for each in (packing, outlines)],
+    )
 
 
 def contour_map() -> Figure:
