@@ -45,8 +45,8 @@ def tables(quick: bool) -> list[Table]:
     note = (
         f"Kernel seconds of {packing.x.size:,} grains of {SCENE}, median (least–largest) of "
         f"{len(seeds)} seeds, and their ratio to those without arrangement. The star has "
-        f"{SEGMENTS} segments and the scene's own laws inside and out, so that it costs what regions cost; the "
-        "horse takes the finer grains."
+        f"{SEGMENTS} segments and the scene's own laws inside and out, so that it costs what "
+        "regions cost; the horse takes the finer grains."
     )
     found = [Table("Arrangement", note, ("arrangement", "seconds", "ratio"), cost)]
     if kept:

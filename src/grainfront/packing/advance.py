@@ -124,17 +124,19 @@ def begin_turn(front, placed, domain, arrangement, queues, counters, n_loc):
     counters[REGIONS_TRIED] = 0
     if arrangement is not None:
         x, y = rough_centre(front, placed, domain, queues, counters, n_loc)
+        queues.rough_centre[0] = x
+        queues.rough_centre[1] = y
         counters[LAW] = law_at(arrangement, x, y)
     counters[TURN] = queues.parked[counters[LAW]]
 
 
 @inlined
-def next_region(front, placed, domain, arrangement, queues, counters, n_loc):
+def next_region(arrangement, queues, counters):
     """Turn to the particles of another region at the same gap; false where all have been tried."""
     if arrangement is None:
         return False
     counters[REGIONS_TRIED] += 1
-    x, y = rough_centre(front, placed, domain, queues, counters, n_loc)
+    x, y = queues.rough_centre[0], queues.rough_centre[1]
     law = nth_other_law(arrangement, counters[REGIONS_TRIED], x, y)
     if law < 0:
         return False
@@ -191,7 +193,7 @@ def advance(
         law, turn = counters[LAW], counters[TURN]
         waiting = queues.n_waiting[law]
         if turn == waiting and (turn == places or queues.drawn[law] == queues.last[law]):
-            if not next_region(front, placed, domain, arrangement, queues, counters, n_loc):
+            if not next_region(arrangement, queues, counters):
                 pass_on(front, queues, counters)
                 begin_turn(front, placed, domain, arrangement, queues, counters, n_loc)
             continue
@@ -244,6 +246,6 @@ def advance(
         if status == TOO_HIGH:
             counters[TOO_HIGH_IN_ROW] += 1
             counters[TURN] += 1
-        elif not next_region(front, placed, domain, arrangement, queues, counters, n_loc):
+        elif not next_region(arrangement, queues, counters):
             pass_on(front, queues, counters)
             begin_turn(front, placed, domain, arrangement, queues, counters, n_loc)

@@ -78,6 +78,7 @@ class Queues(NamedTuple):
     n_placed: np.ndarray  # (n_laws,)
     passed: np.ndarray  # (n + 3,) of each member: the next one, if what was tried rested elsewhere
     least_height: np.ndarray  # (n + 3,) and how high that was
+    rough_centre: np.ndarray  # (2,) about where the next particle is likely to go
 
 
 class Placed(NamedTuple):
