@@ -19,11 +19,15 @@ from grainfront.packing.grid import insert
 from grainfront.packing.orientations import draw_orientations, turn_and_inflate
 from grainfront.packing.search import choose_lowest
 from grainfront.packing.state import RIGHT_WALL
-from grainfront.packing.trials import RESOLVED, TOO_HIGH
+from grainfront.packing.trials import BLOCKED, RESOLVED, TOO_HIGH
 
 # Particles that wait at the top for a lower place while others are tried: enough for one giant
 # grain not to end the packing, few enough not to bend the size law.
 WAITING_PLACES = 8
+
+# With regions, particles may be placed so many circumradii above the rough centre. Higher up they
+# would pile up along the edge of a region, and the front would leave that region behind, empty.
+MOST_RISE = 1.0
 
 # What the loop remembers between calls; LAW and TURN: of whose waiting particles it tries which.
 N_PLACED, N_TOO_LARGE, LAW, TURN, REGIONS_TRIED, N_FAILED = range(6)
@@ -123,9 +127,10 @@ def begin_turn(front, placed, domain, arrangement, queues, counters, n_loc):
     """Choose whose particles are tried first at the gap: those of the rough centre's region."""
     counters[REGIONS_TRIED] = 0
     if arrangement is not None:
-        x, y = rough_centre(front, placed, domain, queues, counters, n_loc)
+        x, y, height = rough_centre(front, placed, domain, queues, counters, n_loc)
         queues.rough_centre[0] = x
         queues.rough_centre[1] = y
+        queues.rough_centre[2] = height
         counters[LAW] = law_at(arrangement, x, y)
     counters[TURN] = queues.parked[counters[LAW]]
 
@@ -220,6 +225,9 @@ def advance(
                 front, placed, grid, domain, trials, memory, arrangement, law, particle,
                 n_angle, n_loc,
             )  # fmt: skip
+        highest = queues.rough_centre[2] + MOST_RISE * particle[1]
+        if arrangement is not None and status == RESOLVED and y > highest:
+            status = BLOCKED
         if status == RESOLVED:
             if arrangement is not None:
                 pass_over(front, queues, counters, i, k, y)

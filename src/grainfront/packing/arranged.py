@@ -111,7 +111,7 @@ def rough_centre(front, placed, domain, queues, counters, n_loc):
     """Where the next particle is likely to go: the lowest place to rest on the local front.
 
     A pair that was passed over, because the lowest place of what was tried was elsewhere, counts as
-    no lower than that place. The pair is noted.
+    no lower than that place. The pair is noted, and the height it counts with returned as well.
     """
     first = max(front.ends[0] - n_loc, 0)
     last = min(front.ends[0] + n_loc - 2, front_length(front) - 2)
@@ -129,7 +129,7 @@ def rough_centre(front, placed, domain, queues, counters, n_loc):
             counters[REST_BACK] = back
             counters[REST_AHEAD] = ahead
     queues.least_height[slot_of(queues.passed, counters[REST_BACK])] = lowest
-    return x, min(y, domain.y_max)
+    return x, min(y, domain.y_max), lowest
 
 
 @inlined

@@ -186,7 +186,7 @@ def _queues(last: np.ndarray, members: int) -> Queues:
         n_placed=placed,
         passed=np.full(members, NO_MEMBER),
         least_height=np.zeros(members),
-        rough_centre=np.zeros(2),
+        rough_centre=np.zeros(3),
     )
 
 

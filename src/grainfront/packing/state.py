@@ -78,7 +78,7 @@ class Queues(NamedTuple):
     n_placed: np.ndarray  # (n_laws,)
     passed: np.ndarray  # (n + 3,) of each member: the next one, if what was tried rested elsewhere
     least_height: np.ndarray  # (n + 3,) and how high that was
-    rough_centre: np.ndarray  # (2,) about where the next particle is likely to go
+    rough_centre: np.ndarray  # (3,) about where the next particle goes: x, y, least height
 
 
 class Placed(NamedTuple):
