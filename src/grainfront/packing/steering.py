@@ -118,6 +118,7 @@ class Steering:
         lean = aim - start.control.aim
         control = self.control(aim, start.settled + lean / RISE)
         control.area[:] = start.control.area
+        control.below[:] = start.control.below
         state = start.state.copy().steered(control, self.rng)
         self.seconds += run(state, state.supply.size.size)
         shared = start.state.n_placed
