@@ -20,7 +20,7 @@ from grainfront.statistics import volume_fraction_between
 
 TARGETS, TOLERANCE = 30, 0.001
 # The ends of what is reached differ by seed; targets keep this far inside.
-MARGIN = 0.002
+MARGIN = 0.003
 # Untargeted packings for comparison, from the plain method to the scene's own effort.
 STEPS, STEP_SEEDS = 6, 3
 SLICES = 5
