@@ -145,5 +145,7 @@ def effort_from_map(
             np.interp(of_loc * np.log(most_n_loc), np.log(n_loc), row) for row in volume_fraction
         ]
         along.append(np.interp(of_angle * np.log(most_n_angle), np.log(n_angle), at_n_loc))
+    if np.ptp(along) == 0.0:
+        return HALF_WAY  # a map of one point tells nothing
     # a map has noise: the first effort from which on the target is reached
     return float(effort[np.argmax(np.maximum.accumulate(along) >= min(target, np.max(along)))])
