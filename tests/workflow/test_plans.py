@@ -84,7 +84,7 @@ def test_a_stage_imports_what_it_uses_and_its_digest_covers(stage, built, tmp_pa
     places = {"S": "config/scenes/tiny.yaml", "R": "results/tiny", "O": str(tmp_path)}
     places["T"] = str(tmp_path / "targeted.yaml")
     text = (built.folder / places["S"]).read_text(encoding="utf-8")
-    Path(places["T"]).write_text(f"{text}target_volume_fraction: 0.7\ntarget_tolerance: 0.01\n")
+    Path(places["T"]).write_text(f"{text}target_volume_fraction: 0.725\ntarget_tolerance: 0.01\n")
 
     def placed(value):
         if isinstance(value, list):

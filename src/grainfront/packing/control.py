@@ -195,7 +195,8 @@ def set_below(control, particle, share):
 @inlined
 def account(control, supply, front, placed, domain, source, number, x, y, i, k):
     """Account for a new particle at (x, y) on the pair (i, k); call it before any is buried."""
-    control.area[number] = control.particle_area[supply.shape[source]] * supply.size[source] ** 2
+    size = supply.size[source]
+    control.area[number] = control.particle_area[supply.shape[source]] * (size * size)
     control.below[number] = 0.0
     a, b = member_at(front, i), member_at(front, k)
     ax, ay = point_of(placed, domain, a, x, y)
