@@ -102,11 +102,18 @@ def take_from_waiting(waiting, counters, turn):
 
 
 @inlined
-def choose_by_reach(front, placed, grid, domain, trials, memory, particle, n_angle, n_loc):
-    """The resolved trial of least potential energy, pruned where the local front is long enough."""
-    if n_loc >= PRUNED_FROM_N_LOC:
+def choose(front, placed, grid, domain, trials, memory, control, particle, n_angle, n_loc):
+    """The resolved trial of least potential energy: (status, x, y, i, k, angle).
+
+    Searched for exhaustively without a memory, and where a controller makes the local front short.
+    """
+    if memory is None:
+        return choose_exhaustively(front, placed, grid, domain, trials, particle, n_angle, n_loc)
+    if control is None:
         return choose_lowest(front, placed, grid, domain, trials, memory, particle, n_angle, n_loc)
-    return choose_exhaustively(front, placed, grid, domain, trials, particle, n_angle, n_loc)
+    if n_loc < PRUNED_FROM_N_LOC:
+        return choose_exhaustively(front, placed, grid, domain, trials, particle, n_angle, n_loc)
+    return choose_lowest(front, placed, grid, domain, trials, memory, particle, n_angle, n_loc)
 
 
 @kernel
@@ -149,18 +156,9 @@ def advance(
             n_angle, n_loc = spend(control, effort, source, offset, most_n_angle, most_n_loc)
         draw_orientations(law, trials, n_angle, counters[N_PLACED], offset)
         particle = turn_and_inflate(supply, source, domain.clearance, trials, n_angle)
-        if memory is None:
-            status, x, y, i, k, angle = choose_exhaustively(
-                front, placed, grid, domain, trials, particle, n_angle, n_loc
-            )
-        elif control is None:
-            status, x, y, i, k, angle = choose_lowest(
-                front, placed, grid, domain, trials, memory, particle, n_angle, n_loc
-            )
-        else:
-            status, x, y, i, k, angle = choose_by_reach(
-                front, placed, grid, domain, trials, memory, particle, n_angle, n_loc
-            )
+        status, x, y, i, k, angle = choose(
+            front, placed, grid, domain, trials, memory, control, particle, n_angle, n_loc
+        )
         if status == RESOLVED:
             at_right_wall = k == front_length(front) - 1
             number = counters[N_PLACED]
