@@ -76,11 +76,15 @@ def make_control(
 
 
 @inlined
+def lack(control):
+    """Solid missing below the front, in mean particle areas."""
+    return (control.aim * control.tally[ENCLOSED] - control.tally[SOLID]) / control.mean_area
+
+
+@inlined
 def effort_now(control):
     """The effort that the lack of solid below the front asks for, from 0 to 1."""
-    tally = control.tally
-    lack = (control.aim * tally[ENCLOSED] - tally[SOLID]) / control.mean_area
-    return min(max(tally[INTEGRAL] + GAIN * lack, 0.0), 1.0)
+    return min(max(control.tally[INTEGRAL] + GAIN * lack(control), 0.0), 1.0)
 
 
 @inlined
@@ -216,6 +220,5 @@ def account(control, supply, front, placed, domain, source, number, x, y, i, k):
     tally = control.tally
     tally[ENCLOSED] += area
     tally[SOLID] += solid
-    lack = (control.aim * tally[ENCLOSED] - tally[SOLID]) / control.mean_area
-    rise = GAIN * lack * area / (INTEGRATION_AREAS * control.mean_area)
+    rise = GAIN * lack(control) * area / (INTEGRATION_AREAS * control.mean_area)
     tally[INTEGRAL] = min(max(tally[INTEGRAL] + rise, 0.0), 1.0)

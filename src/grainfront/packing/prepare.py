@@ -113,7 +113,12 @@ def prepare(
     n_loc: int,
     rng: np.random.Generator,
 ) -> State:
-    """An empty packing with all its arrays; see `pack_hulls`."""
+    """An empty packing with all its arrays.
+
+    `hulls` are standardised (centroid at the origin, S = 1, orientation 0). Particle i is a copy of
+    `hulls.polygon(shape[i])` scaled by `size[i]`. Particles are taken in this order, so `shape` and
+    `size`, (n,), must hold enough to fill the domain.
+    """
     n = size.size
     walls = _domain(domain)
     supply = _supply(hulls, shape, size, rng)
