@@ -1,8 +1,13 @@
-"""Draw the pictures of README and docs from shipped scenes: `python docs/make_images.py`."""
+"""Draw the pictures of README and docs from shipped scenes: `python docs/make_images.py`.
+
+Those of errors against run time come from a record, which takes minutes to make:
+`python docs/make_images.py results/error_vs_time_gravel/error_vs_time.nc`.
+"""
 
 from __future__ import annotations
 
 import io
+import sys
 from pathlib import Path
 
 from matplotlib.figure import Figure
@@ -10,6 +15,7 @@ from PIL import Image
 
 from grainfront import api, figures
 from grainfront.files.contour import Contour
+from grainfront.files.error_vs_time import read_error_vs_time
 from grainfront.scene import Scene
 from grainfront.scene_regions import distances
 from grainfront.shapes.images import find_outlines
@@ -63,6 +69,14 @@ def packing_of(name: str) -> Figure:
     )
 
 
+def draw_record(path: str) -> None:
+    """Draw the axes of a record of errors against run time."""
+    _, axes = read_error_vs_time(path)
+    for axis, quantities in axes.items():
+        figure = figures.error_vs_time(axis, quantities)
+        save_small(figure, IMAGES / f"error_vs_time_{axis}.png")
+
+
 def contour_map() -> Figure:
     """Pack the sweep of contour_rectangles."""
     scene = api.load_scene(ROOT / "config" / "scenes" / "contour_rectangles.yaml")
@@ -95,4 +109,7 @@ def save_small(figure: Figure, path: Path) -> None:
 
 
 if __name__ == "__main__":
-    main()
+    if sys.argv[1:]:
+        draw_record(sys.argv[1])
+    else:
+        main()

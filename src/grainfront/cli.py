@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict
 from pathlib import Path
+from typing import TypeAlias
 
 from grainfront import api
 from grainfront.errors import InputError
@@ -19,6 +20,8 @@ from grainfront.shapes import sources
 from grainfront.shapes.sources import ShapeSource
 
 FAULTY_INPUT = 2
+
+Commands: TypeAlias = "argparse._SubParsersAction[argparse.ArgumentParser]"
 
 OUTLINE_SUFFIXES = (".geojson", ".json", ".wkt", ".csv")
 SCENE_SUFFIXES = (".yaml", ".yml")
@@ -40,7 +43,13 @@ def _parser() -> argparse.ArgumentParser:
         prog="grainfront", description="Dense, overlap-free packings of irregular grains."
     )
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
+    _add_pack(commands)
+    _add_shapes(commands)
+    _add_effort(commands)
+    return parser
 
+
+def _add_pack(commands: Commands) -> None:
     pack = commands.add_parser(
         "pack",
         help="pack the grains of a scene",
@@ -60,6 +69,8 @@ def _parser() -> argparse.ArgumentParser:
     pack.add_argument("--json", action="store_true", help="print the result as one JSON object")
     pack.set_defaults(run=_pack)
 
+
+def _add_shapes(commands: Commands) -> None:
     shapes = commands.add_parser(
         "shapes",
         help="build a shape database",
@@ -79,6 +90,8 @@ def _parser() -> argparse.ArgumentParser:
     )
     shapes.set_defaults(run=_shapes)
 
+
+def _add_effort(commands: Commands) -> None:
     effort = commands.add_parser(
         "effort",
         help="find the least effort that reaches a volume fraction",
@@ -96,7 +109,6 @@ def _parser() -> argparse.ArgumentParser:
     )
     effort.add_argument("--json", action="store_true", help="print the result as one JSON object")
     effort.set_defaults(run=_effort)
-    return parser
 
 
 def _seed(text: str) -> int:

@@ -91,11 +91,11 @@ class Scene:
     matched: tuple[str, Law] | None
     orientation: Law
     packing: PackingEffort
-    target: Target | None
-    sweep: Sweep | None
-    error_vs_time: ErrorVsTime | None
-    replacement: bool
-    outputs: tuple[str, ...]
+    target: Target | None = None
+    sweep: Sweep | None = None
+    error_vs_time: ErrorVsTime | None = None
+    replacement: bool = False
+    outputs: tuple[str, ...] = ()
     arrangement: Arrangement | None = None
 
 

@@ -57,10 +57,6 @@ def _smallest_scene(trials: int) -> tuple[Scene, ShapeDatabase]:
         matched=None,
         orientation=Uniform(0.0, 180.0),
         packing=PackingEffort(n_angle=trials, n_loc=trials, n_bin=2),
-        target=None,
-        sweep=None,
-        error_vs_time=None,
         replacement=True,
-        outputs=(),
     )
     return scene, database

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from grainfront.packing.orientations import orientation_law
-from grainfront.packing.pack import pack_hulls
+from grainfront.packing.pack import fill
+from grainfront.packing.prepare import prepare
 from grainfront.particles import Rectangle
 from grainfront.polygons import Polygons
 
@@ -18,11 +19,12 @@ def volume_fraction(aspect_ratio, n_angle, n_loc, seed):
     nodes = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * [aspect_ratio / 2, 0.5]
     rng = np.random.default_rng(seed)
     n = int(1.2 * 200**2 / (aspect_ratio * 1.75)) + 50
-    packing, _ = pack_hulls(
-        Polygons.of([nodes]), np.full(1, aspect_ratio), np.zeros(n, dtype=np.int64),
-        rng.uniform(0.5, 2.0, n), orientation_law(np.full(24, 1 / 24), np.linspace(0, 180, 6145)),
-        Rectangle(0.0, 0.0, 200.0, 200.0), n_angle=n_angle, n_loc=n_loc, rng=rng,
+    empty = prepare(
+        Polygons.of([nodes]), np.zeros(n, dtype=np.int64), rng.uniform(0.5, 2.0, n),
+        orientation_law(np.full(24, 1 / 24), np.linspace(0, 180, 6145)),
+        Rectangle(0.0, 0.0, 200.0, 200.0), n_angle, n_loc, rng,
     )  # fmt: skip
+    packing, _ = fill(empty, np.full(1, aspect_ratio))
     return packing.area.sum() / 200.0**2
 
 

@@ -31,11 +31,7 @@ def scene(**changes) -> Scene:
         matched=("aspect_ratio", Uniform(1.2, 1.4)),
         orientation=Uniform(0.0, 180.0),
         packing=PackingEffort(n_angle=1, n_loc=1, n_bin=12),
-        target=None,
-        sweep=None,
-        error_vs_time=None,
         replacement=True,
-        outputs=(),
     )
     return dataclasses.replace(small, **changes)
 

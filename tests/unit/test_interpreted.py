@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from grainfront.packing.orientations import orientation_law
-from grainfront.packing.pack import pack_hulls
+from grainfront.packing.pack import fill
+from grainfront.packing.prepare import prepare
 from grainfront.particles import Rectangle
 from grainfront.polygons import Polygons
 
@@ -22,17 +23,17 @@ def digest_of_a_packing() -> str:
     """Pack some forty pentagons and digest where they are."""
     angle = np.arange(5) * 0.4 * np.pi + 0.1
     rng = np.random.default_rng(5)
-    packing, _ = pack_hulls(
+    empty = prepare(
         Polygons.of([np.column_stack([np.cos(angle), np.sin(angle)]) / 1.8]),
-        np.ones(1),
         np.zeros(150, dtype=np.int64),
         rng.uniform(0.5, 1.0, 150),
         orientation_law(np.full(12, 1 / 12), np.linspace(0.0, 180.0, 3073)),
         Rectangle(0.0, 0.0, 6.0, 6.0),
-        n_angle=6,
-        n_loc=4,
-        rng=rng,
+        6,
+        4,
+        rng,
     )
+    packing, _ = fill(empty, np.ones(1))
     assert packing.x.size > 30
     return hashlib.sha256(packing.polygons.nodes.tobytes()).hexdigest()
 

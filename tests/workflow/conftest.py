@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import shutil
 import subprocess
@@ -9,6 +10,8 @@ import sys
 from pathlib import Path
 
 import pytest
+
+from grainfront import stages
 
 ROOT = Path(__file__).parents[2]
 
@@ -38,6 +41,33 @@ class Project:
         jobs = {name: int(count) for name, count in re.findall(r"(\w+) +(\d+)\n", table[1])}
         jobs.pop("all", None)  # none where single files are asked for
         return jobs
+
+    def modules_of(self, stage: str, arguments: dict[str, object]) -> list[str]:
+        """What a new process has imported once it has run a stage."""
+        code = (
+            "import json, sys\n"
+            "from grainfront import stages\n"
+            f"stages.{stage}(**json.loads(sys.argv[1]))\n"
+            "print(json.dumps(sorted(sys.modules)))"
+        )
+        run = subprocess.run(
+            [sys.executable, "-c", code, json.dumps(arguments)],
+            cwd=self.folder, capture_output=True, text=True,
+        )  # fmt: skip
+        assert run.returncode == 0, run.stderr
+        return json.loads(run.stdout)
+
+    @staticmethod
+    def uncovered(stage: str, modules: list[str]) -> list[str]:
+        """Modules of the package that a stage imported and its digest does not cover."""
+        covered = stages.SOURCES[stage]
+        ours = [m.removeprefix("grainfront.") for m in modules if m.startswith("grainfront.")]
+        return [
+            module
+            for module in ours
+            if not any(f"{module}.".startswith(f"{part}.") for part in covered)
+            and not any(part.startswith(f"{module}.") for part in covered)  # an empty __init__
+        ]
 
     def edit(self, name: str, old: str, new: str) -> None:
         """Change one place in a file."""

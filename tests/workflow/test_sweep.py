@@ -150,25 +150,7 @@ def test_a_stage_imports_what_it_uses_and_its_digest_covers(
         key: value.replace("O/", f"{tmp_path}/") if isinstance(value, str) else value
         for key, value in arguments.items()
     }
-    code = (
-        "import json, sys\n"
-        "from grainfront import stages\n"
-        f"stages.{stage}(**json.loads(sys.argv[1]))\n"
-        "print(json.dumps(sorted(sys.modules)))"
-    )
-    run = subprocess.run(
-        [sys.executable, "-c", code, json.dumps(arguments)],
-        cwd=swept.folder, capture_output=True, text=True,
-    )  # fmt: skip
-    assert run.returncode == 0, run.stderr
-    modules = json.loads(run.stdout)
+    modules = swept.modules_of(stage, arguments)
     libraries = {"skimage", "matplotlib", "pyvista", "xarray", "numba"}
     assert {module.split(".")[0] for module in modules} & libraries <= heavy
-    covered = stages.SOURCES[stage]
-    ours = [m.removeprefix("grainfront.") for m in modules if m.startswith("grainfront.")]
-    assert [
-        module
-        for module in ours
-        if not any(f"{module}.".startswith(f"{part}.") for part in covered)
-        and not any(part.startswith(f"{module}.") for part in covered)  # an empty __init__
-    ] == []
+    assert swept.uncovered(stage, modules) == []

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from grainfront.geometry.placing import place_polygon
 from grainfront.jit import inlined, kernel
 from grainfront.packing import PRUNED_FROM_N_LOC
@@ -19,7 +21,7 @@ from grainfront.packing.grid import insert
 from grainfront.packing.orientations import draw_orientations, turn_and_inflate
 from grainfront.packing.search import choose_lowest
 from grainfront.packing.state import RIGHT_WALL
-from grainfront.packing.trials import BLOCKED, RESOLVED, TOO_HIGH
+from grainfront.packing.trials import RESOLVED, TOO_HIGH
 
 # Particles that wait at the top for a lower place while others are tried: enough for one giant
 # grain not to end the packing, few enough not to bend the size law.
@@ -151,17 +153,32 @@ def next_region(arrangement, queues, counters):
 
 
 @inlined
-def choose_by_reach(
-    front, placed, grid, domain, trials, memory, arrangement, law, particle, n_angle, n_loc
-):
-    """The resolved trial of least potential energy, pruned where the local front is long enough."""
-    if n_loc >= PRUNED_FROM_N_LOC:
-        return choose_lowest(
-            front, placed, grid, domain, trials, memory, arrangement, law, particle, n_angle, n_loc
+def choose(
+    front, placed, grid, domain, trials, memory, control, arrangement, law, highest, particle,
+    n_angle, n_loc,
+):  # fmt: skip
+    """The resolved trial of least potential energy: (status, x, y, i, k, angle).
+
+    Searched for exhaustively without a memory, and where a controller makes the local front short.
+    None is taken from above `highest`.
+    """
+    if memory is None:
+        return choose_exhaustively(
+            front, placed, grid, domain, trials, arrangement, law, highest, particle, n_angle, n_loc
         )
-    return choose_exhaustively(
-        front, placed, grid, domain, trials, arrangement, law, particle, n_angle, n_loc
-    )
+    if control is None:
+        return choose_lowest(
+            front, placed, grid, domain, trials, memory, arrangement, law, highest, particle,
+            n_angle, n_loc,
+        )  # fmt: skip
+    if n_loc < PRUNED_FROM_N_LOC:
+        return choose_exhaustively(
+            front, placed, grid, domain, trials, arrangement, law, highest, particle, n_angle, n_loc
+        )
+    return choose_lowest(
+        front, placed, grid, domain, trials, memory, arrangement, law, highest, particle,
+        n_angle, n_loc,
+    )  # fmt: skip
 
 
 @kernel
@@ -211,23 +228,13 @@ def advance(
             n_angle, n_loc = spend(control, effort, source, offset, most_n_angle, most_n_loc)
         draw_orientations(laws, law, trials, n_angle, queues.n_placed[law], offset)
         particle = turn_and_inflate(supply, source, domain.clearance, trials, n_angle)
-        if memory is None:
-            status, x, y, i, k, angle = choose_exhaustively(
-                front, placed, grid, domain, trials, arrangement, law, particle, n_angle, n_loc
-            )
-        elif control is None:
-            status, x, y, i, k, angle = choose_lowest(
-                front, placed, grid, domain, trials, memory, arrangement, law, particle,
-                n_angle, n_loc,
-            )  # fmt: skip
-        else:
-            status, x, y, i, k, angle = choose_by_reach(
-                front, placed, grid, domain, trials, memory, arrangement, law, particle,
-                n_angle, n_loc,
-            )  # fmt: skip
-        highest = queues.rough_centre[2] + MOST_RISE * particle[1]
-        if arrangement is not None and status == RESOLVED and y > highest:
-            status = BLOCKED
+        highest = np.inf
+        if arrangement is not None:
+            highest = queues.rough_centre[2] + MOST_RISE * particle[1]
+        status, x, y, i, k, angle = choose(
+            front, placed, grid, domain, trials, memory, control, arrangement, law, highest,
+            particle, n_angle, n_loc,
+        )  # fmt: skip
         if status == RESOLVED:
             if arrangement is not None:
                 pass_over(front, queues, counters, i, k, y)

@@ -70,8 +70,13 @@ def nth_other_law(arrangement, n, x, y):
 
 
 @inlined
-def admitted(arrangement, law, outcome, x, y):
-    """The outcome of a trial of a law's particle: BLOCKED where its centre is in another region."""
+def admitted(arrangement, law, highest, outcome, x, y):
+    """The outcome of a trial of a law's particle.
+
+    BLOCKED where its centre is in another region, or higher than such a particle may go.
+    """
+    if y > highest:
+        return BLOCKED
     if outcome == RESOLVED and region_at(arrangement, x, y) != arrangement.region_of_law[law]:
         return BLOCKED
     return outcome

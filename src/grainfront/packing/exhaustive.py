@@ -13,8 +13,11 @@ from grainfront.packing.front import front_length
 from grainfront.packing.state import Trial
 from grainfront.packing.trials import BLOCKED, RESOLVED, TOO_HIGH, resolve
 
-# The outcome of no trial at all: (status, x, y, i, k, angle).
-NO_TRIAL = (BLOCKED, math.inf, math.inf, -1, -1, -1)
+
+@inlined
+def no_trial_below(highest):
+    """The outcome of no trial at all, (status, x, y, i, k, angle), that only lower ones beat."""
+    return BLOCKED, math.inf, highest, -1, -1, -1
 
 
 @inlined
@@ -36,13 +39,13 @@ def lower(best, trial):
 
 @inlined
 def choose_exhaustively(
-    front, placed, grid, domain, trials, arrangement, law, particle, n_angle, n_loc
+    front, placed, grid, domain, trials, arrangement, law, highest, particle, n_angle, n_loc
 ):
     """The resolved trial of least potential energy: (status, x, y, i, k, angle)."""
     count, circumradius, inradius = particle
     first = max(front.ends[0] - n_loc, 0)
     last = min(front.ends[0] + n_loc - 2, front_length(front) - 2)
-    best = NO_TRIAL
+    best = no_trial_below(highest)
     for i in range(first, last + 1):
         for angle in range(n_angle):
             trial = Trial(angle * count, count, angle, circumradius, inradius)
@@ -50,6 +53,6 @@ def choose_exhaustively(
                 front, placed, grid, domain, trials, trial, i, i + 1
             )
             if arrangement is not None:
-                outcome = admitted(arrangement, law, outcome, x, y)
+                outcome = admitted(arrangement, law, highest, outcome, x, y)
             best = lower(best, (outcome, x, y, at_i, at_k, angle))
     return best

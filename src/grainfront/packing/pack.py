@@ -11,10 +11,8 @@ import numpy as np
 from grainfront.geometry.rings import polygon_areas
 from grainfront.jit import compiling
 from grainfront.packing import search_of
-from grainfront.packing.prepare import State, as_packing, prepare
-from grainfront.packing.state import OrientationLaw
-from grainfront.particles import Packing, Rectangle
-from grainfront.polygons import Polygons
+from grainfront.packing.prepare import State, as_packing
+from grainfront.particles import Packing
 
 # Particles are placed in this many calls of the kernel or more, between which progress is told.
 CALLS = 100
@@ -28,38 +26,17 @@ class RunTime:
     compile_s: float
 
 
-def pack_hulls(
-    hulls: Polygons,
-    aspect_ratio: np.ndarray,
-    shape: np.ndarray,
-    size: np.ndarray,
-    orientation: OrientationLaw,
-    domain: Rectangle,
-    *,
-    n_angle: int,
-    n_loc: int,
-    rng: np.random.Generator,
-    progress: Callable[[int, float], None] | None = None,
-) -> tuple[Packing, RunTime]:
-    """Pack particles by the optimised advancing front method until the domain is full.
-
-    `hulls` are standardised (centroid at the origin, S = 1, orientation 0), `aspect_ratio`,
-    (n_shapes,), is theirs. Particle i is a copy of `hulls.polygon(shape[i])` scaled by `size[i]`.
-    Particles are taken in this order, so `shape` and `size`, (n,), must hold enough to fill the
-    domain. `progress` is told the particles placed and the volume fraction so far. With
-    n_angle = n_loc = 1 this is the plain advancing front method. Source: Du et al. (2023),
-    sections 3 and 4.
-    """
-    empty = prepare(hulls, shape, size, [orientation], domain, n_angle, n_loc, rng)
-    return fill(empty, aspect_ratio, progress)
-
-
 def fill(
     empty: State,
     aspect_ratio: np.ndarray,
     progress: Callable[[int, float], None] | None = None,
 ) -> tuple[Packing, RunTime]:
-    """Pack the particles of an empty packing until its domain is full; see `pack_hulls`."""
+    """Pack the particles of an empty packing by the advancing front until its domain is full.
+
+    `aspect_ratio`, (n_shapes,), is that of the hulls; `progress` is told the particles placed and
+    the volume fraction so far. With n_angle = n_loc = 1 this is the plain advancing front method,
+    with more the optimised one. Source: Du et al. (2023), sections 3 and 4.
+    """
     arranged = "" if empty.arrangement is None else "arranged "
     search = search_of(empty.n_angle, empty.n_loc)
     with compiling(f"{arranged}{search} search") as compilation:

@@ -129,11 +129,13 @@ def prepare(
     last: np.ndarray | None = None,
     largest_size: float | None = None,
 ) -> State:
-    """An empty packing with all its arrays; see `pack_hulls`.
+    """An empty packing with all its arrays.
 
-    With an arrangement, each of its laws has an `orientation`; its particles come one law's after
-    the other's, and `last` (n_laws,) is where they end. `largest_size` is given where sizes are yet
-    to change.
+    `hulls` are standardised (centroid at the origin, S = 1, orientation 0). Particle i is a copy of
+    `hulls.polygon(shape[i])` scaled by `size[i]`. Particles are taken in this order, so `shape` and
+    `size`, (n,), must hold enough to fill the domain. With an arrangement, each of its laws has an
+    `orientation`; its particles come one law's after the other's, and `last` (n_laws,) is where
+    they end. `largest_size` is given where sizes are yet to change.
     """
     n = size.size
     last = np.array([n]) if last is None else last

@@ -15,7 +15,7 @@ import numpy as np
 from grainfront.geometry.contact import contact_from_guess
 from grainfront.jit import inlined
 from grainfront.packing.arranged import admitted
-from grainfront.packing.exhaustive import NO_TRIAL, lower
+from grainfront.packing.exhaustive import lower, no_trial_below
 from grainfront.packing.front import front_length, member_at
 from grainfront.packing.memory import WIDTHS, contact_from_tangent, remember_tangent
 from grainfront.packing.scout import bound_pairs, shape_scout
@@ -119,7 +119,7 @@ def sort_pairs(memory, n_pairs):
 
 @inlined
 def choose_lowest(
-    front, placed, grid, domain, trials, memory, arrangement, law, particle, n_angle, n_loc
+    front, placed, grid, domain, trials, memory, arrangement, law, highest, particle, n_angle, n_loc
 ):
     """The resolved trial of least potential energy: (status, x, y, i, k, angle)."""
     count, circumradius, inradius = particle
@@ -130,7 +130,7 @@ def choose_lowest(
     scout = shape_scout(trials, n_angle * count, n_angle, inradius)
     bound_pairs(front, placed, domain, trials, scout, memory, base, first, last)
     sort_pairs(memory, last + 1 - first)
-    best = NO_TRIAL
+    best = no_trial_below(highest)
     for n in range(last + 1 - first):
         p = memory.order[n]
         if memory.bound[p] > best[2]:
@@ -142,6 +142,6 @@ def choose_lowest(
                 front, placed, grid, domain, trials, trial, memory, base, i, i + 1, best[2]
             )
             if arrangement is not None:
-                outcome = admitted(arrangement, law, outcome, x, y)
+                outcome = admitted(arrangement, law, highest, outcome, x, y)
             best = lower(best, (outcome, x, y, at_i, at_k, angle))
     return best

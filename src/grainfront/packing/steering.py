@@ -23,8 +23,8 @@ from grainfront.packing.prepare import State
 # enough for many finishes to cost less than another packing. At least some rows, as high as the
 # mean particle is long.
 FINISH_SHARE, FINISH_ROWS = 0.15, 4.0
-# First guess of the solid missing along the top, in rows: 0.14 to 0.35 were seen for rectangles of
-# λ = 1.5, 2.5 and 4. Finishes tell better.
+# First guess of the solid missing along the top, in rows: 0.1 to 0.4 were seen for rectangles of
+# λ = 1.5 and 4 and for gravel. Finishes tell better.
 MISSING_ROWS = 0.25
 # Finishes may aim this far beside the rest of the packing, which is to stay even.
 MOST_LEAN = 0.02
@@ -118,6 +118,7 @@ class Steering:
         lean = aim - start.control.aim
         control = self.control(aim, start.settled + lean / RISE)
         control.area[:] = start.control.area
+        control.below[:] = start.control.below
         state = start.state.copy().steered(control, self.rng)
         self.seconds += run(state, state.supply.size.size)
         shared = start.state.n_placed

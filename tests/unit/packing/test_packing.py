@@ -15,7 +15,8 @@ from grainfront.jit import kernel
 from grainfront.packing.advance import N_PLACED, WAITING_PLACES
 from grainfront.packing.front import front_length, member_at, position_of
 from grainfront.packing.orientations import orientation_law
-from grainfront.packing.pack import pack_hulls, prepare
+from grainfront.packing.pack import fill
+from grainfront.packing.prepare import prepare
 from grainfront.particles import Rectangle
 from grainfront.polygons import Polygons
 from grainfront.statistics import find_contacts
@@ -59,17 +60,9 @@ def pack_family(family, domain, sizes, n_angle, n_loc, seed, law=UNIFORM):
     rng = np.random.default_rng(seed)
     mean_area = polygon_areas(hulls.nodes, hulls.offsets).mean() * np.mean(np.square(sizes))
     n = int(3.0 * domain.area / mean_area) + 20
-    return pack_hulls(
-        hulls,
-        np.ones(hulls.count),
-        rng.integers(0, hulls.count, n),
-        rng.uniform(*sizes, n),
-        orientation_law(*law),
-        domain,
-        n_angle=n_angle,
-        n_loc=n_loc,
-        rng=rng,
-    )[0]
+    shape, size = rng.integers(0, hulls.count, n), rng.uniform(*sizes, n)
+    empty = prepare(hulls, shape, size, orientation_law(*law), domain, n_angle, n_loc, rng)
+    return fill(empty, np.ones(hulls.count))[0]
 
 
 def square_domain(side, origin=0.0):
@@ -186,10 +179,11 @@ def test_orientations_keep_far_closer_to_the_law_than_chance(n_angle):
 def test_grains_too_wide_for_the_domain_do_not_end_the_packing():
     hulls = Polygons.of([rectangle(1.0)])
     size = np.where(np.arange(400) % 10 == 3, 50.0, 1.0)
-    packing, _ = pack_hulls(
-        hulls, np.ones(1), np.zeros(400, dtype=np.int64), size, orientation_law(*UNIFORM),
-        square_domain(9.0), n_angle=1, n_loc=1, rng=np.random.default_rng(0),
+    empty = prepare(
+        hulls, np.zeros(400, dtype=np.int64), size, orientation_law(*UNIFORM), square_domain(9.0),
+        1, 1, np.random.default_rng(0),
     )  # fmt: skip
+    packing, _ = fill(empty, np.ones(1))
     assert packing.x.size >= 64 * 0.7 and packing.size.max() == 1.0
     too_wide = packing.left_over - WAITING_PLACES
     assert 5 <= too_wide <= 15  # every tenth of those drawn
@@ -198,11 +192,11 @@ def test_grains_too_wide_for_the_domain_do_not_end_the_packing():
 def test_progress_is_told_up_to_the_final_fraction():
     told = []
     hulls = Polygons.of(FAMILIES["squares"])
-    packing, run_time = pack_hulls(
-        hulls, np.ones(1), np.zeros(900, dtype=np.int64), np.ones(900), orientation_law(*UNIFORM),
-        square_domain(20.0), n_angle=1, n_loc=1, rng=np.random.default_rng(0),
-        progress=lambda particles, fraction: told.append((particles, fraction)),
+    empty = prepare(
+        hulls, np.zeros(900, dtype=np.int64), np.ones(900), orientation_law(*UNIFORM),
+        square_domain(20.0), 1, 1, np.random.default_rng(0),
     )  # fmt: skip
+    packing, run_time = fill(empty, np.ones(1), lambda *so_far: told.append(so_far))
     assert told == sorted(told) and len(told) > 10
     assert told[-1] == (packing.x.size, pytest.approx(packing.area.sum() / 400.0))
     assert run_time.kernel_s > 0.0

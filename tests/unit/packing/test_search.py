@@ -11,7 +11,7 @@ from grainfront.geometry.rings import polygon_areas
 from grainfront.packing import PRUNED_FROM_N_LOC, search_of
 from grainfront.packing.advance import N_PLACED
 from grainfront.packing.orientations import orientation_law
-from grainfront.packing.pack import prepare
+from grainfront.packing.prepare import prepare
 from grainfront.particles import Rectangle
 from grainfront.polygons import Polygons
 

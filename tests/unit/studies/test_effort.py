@@ -39,11 +39,6 @@ def scene(**changes) -> Scene:
         matched=None,
         orientation=Uniform(0.0, 180.0),
         packing=PackingEffort(n_angle=2, n_loc=2, n_bin=12),
-        target=None,
-        sweep=None,
-        error_vs_time=None,
-        replacement=False,
-        outputs=(),
     )
     return dataclasses.replace(small, **changes)
 

@@ -31,11 +31,7 @@ def scene(n_angle=(3, 1), n_loc=(2, 9), seeds=2, **changes) -> Scene:
         matched=("aspect_ratio", Constant(1.5)),
         orientation=Uniform(0.0, 180.0),
         packing=PackingEffort(n_angle=24, n_loc=20, n_bin=12),
-        target=None,
         sweep=Sweep(tuple(n_angle), tuple(n_loc), seeds),
-        error_vs_time=None,
-        replacement=False,
-        outputs=(),
     )
     return dataclasses.replace(small, **changes)
 
