@@ -2,32 +2,22 @@
 
 from __future__ import annotations
 
-import logging
-import warnings
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-import skimage.data
 from scipy import ndimage
-from skimage import color, feature, filters, io, measure, morphology, segmentation, util
+from skimage import feature, filters, measure, morphology, segmentation
 
 from grainfront.errors import InputError
+from grainfront.image_files import grey_values, read_image
 from grainfront.polygons import Polygons
 from grainfront.shapes.outlines import trace_labels
 from grainfront.shapes.sources import (
-    SHIPPED,
     BinaryMasks,
     LabelMasks,
     Photographs,
     Segmentation,
 )
-
-# What tifffile logs of a damaged file is told by the error that follows.
-logging.getLogger("tifffile").addHandler(logging.NullHandler())
-
-# The photographs and the silhouette inside scikit-image's own package, which need no download.
-SHIPPED_IMAGES = ("gravel", "coins", "horse")
 
 
 class FoundOutlines(NamedTuple):
@@ -55,7 +45,7 @@ def find_outlines(source: Photographs | BinaryMasks | LabelMasks) -> list[FoundO
 def _find_in(path: str, source: Photographs | BinaryMasks | LabelMasks) -> FoundOutlines:
     pixels = read_image(path)
     if isinstance(source, Photographs):
-        image = _grey(path, pixels)
+        image = grey_values(path, pixels)
         labels = segment(image, source.segmentation)
         limits = source.segmentation.min_perimeter, source.segmentation.min_solidity
     else:
@@ -70,30 +60,6 @@ def _find_in(path: str, source: Photographs | BinaryMasks | LabelMasks) -> Found
         dropped = ", ".join(f"{reason} {n}" for reason, n in counts.items() if n) or "nothing found"
         raise InputError(f"{path}: no grain to keep in this image ({dropped}).")
     return FoundOutlines(path, image, outlines, counts)
-
-
-def read_image(path: str) -> np.ndarray:
-    """Read an image file, or one inside scikit-image ("skimage:gravel"), as it is.
-
-    Raises InputError, naming the file, where it cannot be read.
-    """
-    if path.startswith(SHIPPED):
-        name = path.removeprefix(SHIPPED)
-        if name not in SHIPPED_IMAGES:
-            allowed = ", ".join(SHIPPED + known for known in SHIPPED_IMAGES)
-            raise InputError(f"{path}: no such image inside scikit-image; allowed are {allowed}.")
-        return getattr(skimage.data, name)()
-    if not Path(path).is_file():
-        raise InputError(f"{path}: there is no such image file.")
-    try:
-        # what the readers warn of, such as a large image, either ends in an error or is none
-        with warnings.catch_warnings(action="ignore"):
-            pixels = np.asarray(io.imread(path))
-    except Exception as reason:  # each of the image readers raises errors of its own
-        raise InputError(f"{path}: not a readable image ({_first_line(reason)}).") from reason
-    if pixels.ndim not in (2, 3) or pixels.size == 0:
-        raise InputError(f"{path}: an image has rows and columns, this has shape {pixels.shape}.")
-    return pixels
 
 
 def segment(image: np.ndarray, options: Segmentation) -> np.ndarray:
@@ -131,28 +97,9 @@ def _without_small_holes(grains: np.ndarray, area: int) -> np.ndarray:
     return grains | small[holes]
 
 
-def _grey(path: str, pixels: np.ndarray) -> np.ndarray:
-    """Grey values in [0, 1] of a grey, RGB or RGBA image."""
-    if pixels.ndim == 3 and pixels.shape[2] == 4:
-        pixels = color.rgba2rgb(pixels)
-    if pixels.ndim == 3 and pixels.shape[2] == 3:
-        pixels = color.rgb2gray(pixels)
-    if pixels.ndim != 2:
-        raise InputError(f"{path}: neither grey nor RGB, its shape is {pixels.shape}.")
-    if pixels.dtype.kind not in "buif" or not np.isfinite(pixels).all():
-        raise InputError(f"{path}: some grey values are not finite real numbers.")
-    grey = util.img_as_float64(pixels) if pixels.dtype.kind in "bui" else pixels.astype(np.float64)
-    low, high = float(grey.min()), float(grey.max())
-    if not np.isfinite(high - low):
-        raise InputError(f"{path}: grey values from {low:g} to {high:g} are too far apart.")
-    if low == high:
-        raise InputError(f"{path}: an image of a single grey value holds no grain.")
-    return (grey - low) / (high - low)
-
-
 def _parts(path: str, pixels: np.ndarray, dark_grains: bool) -> np.ndarray:
     """Label the connected components of a mask: grains are brighter (or darker) than half grey."""
-    bright = _grey(path, pixels) > 0.5
+    bright = grey_values(path, pixels) > 0.5
     return ndimage.label(~bright if dark_grains else bright)[0]
 
 
@@ -166,7 +113,3 @@ def _labels(path: str, pixels: np.ndarray) -> np.ndarray:
         raise InputError(f"{path}: labels start at 0 (background), the least is {pixels.min()}.")
     # Consecutive labels: a mask may number its grains by any large numbers.
     return np.unique(pixels, return_inverse=True)[1].reshape(pixels.shape) + int(pixels.min() > 0)
-
-
-def _first_line(reason: Exception) -> str:
-    return str(reason).strip().split("\n")[0][:200] or type(reason).__name__

@@ -8,6 +8,7 @@ from pathlib import Path
 _PACKAGE = Path(__file__).parents[1]
 _ALWAYS = (
     "__init__", "api", "arrangement.regions", "arrangement.zones", "checked_yaml", "errors",
+    "image_files",
     "particles", "polygons", "scene", "scene_arrangement", "scene_laws", "scene_packing",
     "scene_statistics", "stages",
 )  # fmt: skip
