@@ -8,11 +8,17 @@ import numpy as np
 
 from grainfront.errors import InputError
 from grainfront.geometry.boxes import bounding_boxes, close_pairs
-from grainfront.geometry.exact import convex_hull, hulls_disjoint, is_convex, is_simple
-from grainfront.geometry.outlines import interiors_meet
+from grainfront.geometry.exact import (
+    convex_hull,
+    hulls_disjoint,
+    is_convex,
+    is_simple,
+    rings_contain,
+)
+from grainfront.geometry.outlines import crosses_interior, interiors_meet
 from grainfront.geometry.rings import neighbours
 from grainfront.jit import kernel
-from grainfront.particles import Packing, Rectangle
+from grainfront.particles import Packing, Rectangle, Region
 from grainfront.polygons import Polygons
 
 
@@ -64,6 +70,9 @@ def certify(packing: Packing) -> Certificate:
         overlapping[k] = interiors_meet(polygons.polygon(i), polygons.polygon(j))
         exact[k] = True
     across = _across_wall(boxes, packing.domain)
+    if isinstance(packing.domain, Region):
+        outside = _outside(polygons, hulls, boxes, convex, packing.domain)
+        across = np.union1d(across, outside)
     return Certificate(
         particles=polygons.count,
         pairs_tested=len(pairs),
@@ -126,6 +135,35 @@ def _across_wall(boxes: np.ndarray, domain: Rectangle) -> np.ndarray:
         | (boxes[:, 2] > domain.x_max)
         | (boxes[:, 3] > domain.y_max)
     )
+
+
+def _outside(
+    polygons: Polygons, hulls: Polygons, boxes: np.ndarray, convex: np.ndarray, region: Region
+) -> np.ndarray:
+    """Particles that are not inside the region: sorted indices.
+
+    A particle is inside if no edge of the region crosses its interior and one point of the interior
+    is inside.
+    """
+    edges = _edges_of(region.rings)
+    pairs = close_pairs_between(boxes, bounding_boxes(edges.nodes, edges.offsets), 0.0)
+    clear, exact = np.empty((2, len(pairs)), dtype=np.bool_)
+    _separate_from(hulls.nodes, hulls.offsets, edges.nodes, edges.offsets, pairs, clear, exact)
+    for k in np.flatnonzero(~clear & ~convex[pairs[:, 0]]):
+        particle, edge = pairs[k]
+        clear[k] = not crosses_interior(edges.polygon(edge), polygons.polygon(particle))
+    inside = np.empty(hulls.count, dtype=np.bool_)
+    points = _interior_points(polygons, convex)
+    _mark_inside(points, edges.nodes, inside)
+    inside[pairs[~clear, 0]] = False
+    return np.flatnonzero(~inside)
+
+
+def _edges_of(rings: Polygons) -> Polygons:
+    """Each edge of the rings as a polygon of two nodes."""
+    _, after = neighbours(rings.offsets)
+    nodes = np.stack([rings.nodes, rings.nodes[after]], axis=1).reshape(-1, 2)
+    return Polygons(nodes, np.arange(0, len(nodes) + 1, 2))
 
 
 @kernel

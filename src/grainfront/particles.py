@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from grainfront.errors import InputError
 from grainfront.polygons import Polygons
+
+if TYPE_CHECKING:
+    import shapely
 
 CONTACT_TOLERANCE = 1e-6
 """Largest gap of a contact, in mean sizes.
@@ -36,6 +41,58 @@ class Rectangle:
     @property
     def area(self) -> float:
         return self.width * self.height
+
+
+@dataclass(frozen=True, eq=False)
+class Region(Rectangle):
+    """A domain of any shape, which as a rectangle is its own bounding rectangle.
+
+    `rings` are the boundaries, the domain to the left of each: of polygon i, those from `parts[i]`
+    to `parts[i + 1]`, its outer ring first, then its holes. `parts` has shape (n_polygons + 1,).
+    """
+
+    rings: Polygons
+    parts: np.ndarray
+
+    @classmethod
+    def of(cls, polygon: shapely.Geometry) -> Region:
+        """The region that a shapely Polygon or MultiPolygon covers, its coordinates bit for bit.
+
+        Raises InputError where the polygon is of another kind, empty, not valid or not finite.
+        """
+        import shapely
+
+        if polygon.geom_type not in ("Polygon", "MultiPolygon") or polygon.is_empty:
+            raise InputError(
+                f"The domain is {'an empty ' if polygon.is_empty else 'a '}{polygon.geom_type}, "
+                "but must be a Polygon or MultiPolygon that covers some area."
+            )
+        if not shapely.is_valid(polygon):
+            raise InputError(
+                f"The domain is no valid polygon: {shapely.is_valid_reason(polygon)}."
+            )
+        whole = shapely.force_2d(shapely.orient_polygons(polygon))
+        _, nodes, (rings, parts, *_) = shapely.to_ragged_array([whole])
+        open_nodes = np.delete(nodes, rings[1:] - 1, axis=0)
+        open_rings = Polygons(open_nodes, (rings - np.arange(rings.size)).astype(np.int64))
+        box = map(float, (*open_nodes.min(axis=0), *open_nodes.max(axis=0)))
+        return cls(*box, open_rings, np.asarray(parts, dtype=np.int64))
+
+    def to_shapely(self) -> Any:
+        """The region as a shapely MultiPolygon, its coordinates bit for bit."""
+        import shapely
+
+        offsets = self.rings.offsets
+        closed = np.insert(np.arange(offsets[-1]), offsets[1:], offsets[:-1])
+        return shapely.from_ragged_array(
+            shapely.GeometryType.MULTIPOLYGON,
+            self.rings.nodes[closed],
+            (offsets + np.arange(offsets.size), self.parts, np.array([0, self.parts.size - 1])),
+        )[0]
+
+    @property
+    def area(self) -> float:
+        return float(self.to_shapely().area)
 
 
 @dataclass(frozen=True)

@@ -7,11 +7,12 @@ from grainfront.jit import inlined, kernel
 from grainfront.packing import PRUNED_FROM_N_LOC
 from grainfront.packing.control import EFFORT_SUM, account, effort_now, spend
 from grainfront.packing.exhaustive import choose_exhaustively
-from grainfront.packing.front import bury, front_length, move_gap
+from grainfront.packing.front import bury, front_length, member_at, move_gap, position_of
 from grainfront.packing.grid import insert
+from grainfront.packing.obstacles import BOTH, FORMER, LATTER, join_obstacle, touched_of_pair
 from grainfront.packing.orientations import draw_orientations, turn_and_inflate
 from grainfront.packing.search import choose_lowest
-from grainfront.packing.state import RIGHT_WALL
+from grainfront.packing.state import RIGHT_WALL, Trial
 from grainfront.packing.trials import RESOLVED, TOO_HIGH
 
 # Particles that wait at the top for a lower place while others are tried: enough for one giant
@@ -77,6 +78,22 @@ def pass_on(front, counters, n_waiting_places, supply_left):
     else:
         counters[TURN] = counters[PARKED]
         move_gap(front, front.ends[0] + 1)
+
+
+@inlined
+def turn_at_obstacle(front, placed, counters, n_waiting_places, supply_left, touched, particle):
+    """Go on beside a particle that touches an obstacle instead of one of its pair.
+
+    Towards the obstacle where that leads down, so that the front reaches all that lies below it;
+    elsewhere rows end at walls.
+    """
+    position = position_of(front, particle)
+    partner = member_at(front, position - 1 if touched == FORMER else position + 1)
+    leads_down = placed.disc[particle, 1] < placed.disc[partner, 1]
+    if touched == LATTER and leads_down:
+        move_gap(front, position)
+    elif touched == FORMER and not leads_down:
+        pass_on(front, counters, n_waiting_places, supply_left)
 
 
 @inlined
@@ -164,6 +181,13 @@ def advance(
         if status == RESOLVED:
             at_right_wall = k == front_length(front) - 1
             number = counters[N_PLACED]
+            trial = Trial(angle * particle[0], particle[0], angle, particle[1], particle[2])
+            touched = touched_of_pair(
+                domain.obstacles, front, placed, grid, domain, trials, trial, i, k
+            )
+            i, k = join_obstacle(
+                domain.obstacles, front, placed, trial, number, x, y, i, k, touched
+            )
             if control is not None:
                 account(control, supply, front, placed, domain, source, number, x, y, i, k)
                 control.tally[EFFORT_SUM] += effort
@@ -173,7 +197,9 @@ def advance(
             counters[N_PLACED] += 1
             counters[PLACED_IN_ROW] += 1
             take_from_waiting(waiting, counters, turn)
-            if at_right_wall:
+            if touched != BOTH:
+                turn_at_obstacle(front, placed, counters, places, supply_left, touched, number)
+            elif at_right_wall:
                 end_row(front, counters, places, supply_left)
             continue
         counters[N_FAILED] += 1

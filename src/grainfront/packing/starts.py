@@ -1,0 +1,129 @@
+"""Where a front begins that has no flat bottom: the lowest place that touches two obstacles.
+
+The front reaches whatever is connected to its first particle as wide as the particles are. What it
+does not reach, another part of the domain or one beyond a neck, gets a front of its own, which
+begins once the one before it has come to its end.
+"""
+
+from __future__ import annotations
+
+import math
+
+from grainfront.jit import inlined, kernel
+from grainfront.packing.advance import (
+    FINISHED,
+    N_DRAWN,
+    N_PLACED,
+    N_WAITING,
+    PARKED,
+    PLACED_IN_ROW,
+    TOO_HIGH_IN_ROW,
+    draw_next,
+    store,
+    take_from_waiting,
+)
+from grainfront.packing.obstacles import overlaps_obstacle
+from grainfront.packing.orientations import draw_orientations, turn_and_inflate
+from grainfront.packing.state import LEFT_WALL, RIGHT_WALL, Trial
+from grainfront.packing.trials import contact_of_pair
+
+# A front begins only where no particle lies within so many circumradii of the new one: a hollow
+# that a front has left empty along a wall is no part that it has not reached.
+EMPTY_ABOUT = 3.0
+
+
+@inlined
+def boxes_within(box, o, p, distance):
+    """Whether two bounding boxes are at most `distance` apart along both axes."""
+    return (
+        box[o, 0] <= box[p, 2] + distance
+        and box[p, 0] <= box[o, 2] + distance
+        and box[o, 1] <= box[p, 3] + distance
+        and box[p, 1] <= box[o, 3] + distance
+    )
+
+
+@inlined
+def empty_about(placed, n_placed, x, y, reach):
+    """Whether no particle comes within `reach` of a point."""
+    for q in range(n_placed):
+        far = reach + placed.disc[q, 2]
+        if (placed.disc[q, 0] - x) ** 2 + (placed.disc[q, 1] - y) ** 2 < far * far:
+            return False
+    return True
+
+
+@inlined
+def lowest_start(obstacles, placed, n_placed, domain, trials, particle, n_angle):
+    """The lowest place that touches two obstacles where all is empty: (found, x, y, angle)."""
+    count, circumradius, inradius = particle
+    best = False, 0.0, math.inf, 0
+    for o in range(obstacles.box.shape[0]):
+        for p in range(obstacles.box.shape[0]):
+            if o == p or not boxes_within(obstacles.box, o, p, 2.0 * circumradius):
+                continue
+            for angle in range(n_angle):
+                trial = Trial(angle * count, count, angle, circumradius, inradius)
+                found, x, y = contact_of_pair(
+                    placed, domain, trials, trial, obstacles.first + o, obstacles.first + p
+                )
+                if not found or y >= best[2]:
+                    continue
+                if overlaps_obstacle(obstacles, placed, domain, trials, trial, x, y):
+                    continue
+                if empty_about(placed, n_placed, x, y, EMPTY_ABOUT * circumradius):
+                    best = True, x, y, angle
+    return best
+
+
+@inlined
+def empty_front(front, n_placed):
+    """Bury all particles, and let the walls alone make the front."""
+    for q in range(n_placed):
+        front.slot[q] = -1
+    front.member[0] = LEFT_WALL
+    front.ends[0] = 1
+    front.ends[1] = front.member.size - 1
+    front.member[front.ends[1]] = RIGHT_WALL
+
+
+@kernel
+def start_front(
+    obstacles, front, placed, grid, domain, supply, law, trials, waiting, counters, n_angle, limit
+):
+    """Where the last front has come to its end, begin another one; whether there was a place.
+
+    It begins with the first of the waiting particles that finds one.
+    """
+    if not counters[FINISHED] or counters[N_PLACED] >= limit:
+        return False
+    n_placed = counters[N_PLACED]
+    narrowest = min(domain.x_max - domain.x_min, domain.y_max - domain.y_min)
+    turn = 0
+    while turn < waiting.size:
+        if turn == counters[N_WAITING]:
+            if counters[N_DRAWN] == supply.size.size:
+                return False
+            if draw_next(waiting, counters, supply, narrowest):
+                continue
+        source = waiting[turn]
+        draw_orientations(law, trials, n_angle, n_placed, supply.uniform[source])
+        particle = turn_and_inflate(supply, source, domain.clearance, trials, n_angle)
+        found, x, y, angle = lowest_start(
+            obstacles, placed, n_placed, domain, trials, particle, n_angle
+        )
+        if found:
+            empty_front(front, n_placed)
+            store(
+                placed, front, grid, domain, supply, law, trials, source, n_placed, x, y, angle,
+                0, 1,
+            )  # fmt: skip
+            counters[N_PLACED] += 1
+            counters[PARKED] = 0
+            counters[PLACED_IN_ROW] = 1
+            counters[TOO_HIGH_IN_ROW] = 0
+            counters[FINISHED] = 0
+            take_from_waiting(waiting, counters, turn)
+            return True
+        turn += 1
+    return False
