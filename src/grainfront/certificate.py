@@ -7,15 +7,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from grainfront.errors import InputError
-from grainfront.geometry.boxes import bounding_boxes, close_pairs
+from grainfront.geometry.boxes import bounding_boxes, close_pairs, pairs_between
 from grainfront.geometry.exact import (
     convex_hull,
+    edges_surround,
+    hull_surrounds,
     hulls_disjoint,
     is_convex,
     is_simple,
-    rings_contain,
 )
-from grainfront.geometry.outlines import crosses_interior, interiors_meet
+from grainfront.geometry.outlines import interiors_meet, lies_inside
 from grainfront.geometry.rings import neighbours
 from grainfront.jit import kernel
 from grainfront.particles import Packing, Rectangle, Region
@@ -49,9 +50,10 @@ def certify(packing: Packing) -> Certificate:
     """Count, exactly, the particles that share interior points and those that cross a wall.
 
     The verdict is that of rational arithmetic on the stored float64 coordinates: touching is no
-    overlap, and one unit in the last place of penetration is one. Hulls are decided by the theorem
-    of separating edges; outlines by their hulls and, where those overlap, by the outlines
-    themselves. Raises InputError where a polygon is not finite, simple and counter-clockwise.
+    overlap, and one unit in the last place of penetration is one; so with walls, of rectangles and
+    of domains of any shape. Hulls are decided by the theorem of separating edges; outlines by their
+    hulls and, where those overlap, by the outlines themselves. Raises InputError where a polygon is
+    not finite, simple and counter-clockwise.
     """
     polygons = packing.polygons
     if polygons.count == 0:
@@ -62,7 +64,7 @@ def certify(packing: Packing) -> Certificate:
     pairs = close_pairs(boxes, 0.0)
     hulls = polygons if convex.all() else _exact_hulls(polygons)
     disjoint, exact = np.empty((2, len(pairs)), dtype=np.bool_)
-    _separate(hulls.nodes, hulls.offsets, pairs, disjoint, exact)
+    _separate(hulls.nodes, hulls.offsets, hulls.nodes, hulls.offsets, pairs, disjoint, exact)
 
     overlapping = ~disjoint
     for k in np.flatnonzero(overlapping & ~convex[pairs].all(axis=1)):
@@ -140,23 +142,23 @@ def _across_wall(boxes: np.ndarray, domain: Rectangle) -> np.ndarray:
 def _outside(
     polygons: Polygons, hulls: Polygons, boxes: np.ndarray, convex: np.ndarray, region: Region
 ) -> np.ndarray:
-    """Particles that are not inside the region: sorted indices.
+    """Particles that are not inside the region, sorted.
 
-    A particle is inside if no edge of the region crosses its interior and one point of the interior
-    is inside.
+    A hull is inside if no edge of the region crosses its interior and one point of the interior is
+    inside; where its hull is not, an outline is decided by itself.
     """
     edges = _edges_of(region.rings)
-    pairs = close_pairs_between(boxes, bounding_boxes(edges.nodes, edges.offsets), 0.0)
+    pairs = pairs_between(boxes, bounding_boxes(edges.nodes, edges.offsets))
     clear, exact = np.empty((2, len(pairs)), dtype=np.bool_)
-    _separate_from(hulls.nodes, hulls.offsets, edges.nodes, edges.offsets, pairs, clear, exact)
-    for k in np.flatnonzero(~clear & ~convex[pairs[:, 0]]):
-        particle, edge = pairs[k]
-        clear[k] = not crosses_interior(edges.polygon(edge), polygons.polygon(particle))
+    _separate(hulls.nodes, hulls.offsets, edges.nodes, edges.offsets, pairs, clear, exact)
     inside = np.empty(hulls.count, dtype=np.bool_)
-    points = _interior_points(polygons, convex)
-    _mark_inside(points, edges.nodes, inside)
-    inside[pairs[~clear, 0]] = False
-    return np.flatnonzero(~inside)
+    _mark_inside(hulls.nodes, hulls.offsets, edges.nodes, inside)
+    crossed = np.zeros(hulls.count, dtype=np.bool_)
+    crossed[pairs[~clear, 0]] = True
+    for k in np.flatnonzero((crossed & ~convex) | ~(crossed | inside)).tolist():
+        inside[k] = lies_inside(polygons.polygon(k), edges.nodes.reshape(-1, 2, 2))
+        crossed[k] = False
+    return np.flatnonzero(crossed | ~inside)
 
 
 def _edges_of(rings: Polygons) -> Polygons:
@@ -193,9 +195,22 @@ def _find_hulls(nodes, offsets, order, scratch, kept, hull_offsets):
 
 
 @kernel
-def _separate(nodes, offsets, pairs, disjoint, exact):
+def _separate(nodes, offsets, other_nodes, other_offsets, pairs, disjoint, exact):
     for k in range(pairs.shape[0]):
         i, j = pairs[k, 0], pairs[k, 1]
         disjoint[k], exact[k] = hulls_disjoint(
-            nodes[offsets[i] : offsets[i + 1]], nodes[offsets[j] : offsets[j + 1]]
+            nodes[offsets[i] : offsets[i + 1]],
+            other_nodes[other_offsets[j] : other_offsets[j + 1]],
         )
+
+
+@kernel
+def _mark_inside(nodes, offsets, edges, inside):
+    """Mark convex polygons whose mean node lies inside both themselves and the region."""
+    for i in range(inside.size):
+        hull = nodes[offsets[i] : offsets[i + 1]]
+        x, y = 0.0, 0.0
+        for k in range(hull.shape[0]):
+            x += hull[k, 0] / hull.shape[0]
+            y += hull[k, 1] / hull.shape[0]
+        inside[i] = hull_surrounds(hull, x, y) and edges_surround(edges, x, y)

@@ -68,15 +68,13 @@ class Region(Rectangle):
                 "but must be a Polygon or MultiPolygon that covers some area."
             )
         if not shapely.is_valid(polygon):
-            raise InputError(
-                f"The domain is no valid polygon: {shapely.is_valid_reason(polygon)}."
-            )
+            raise InputError(f"The domain is no valid polygon: {shapely.is_valid_reason(polygon)}.")
         whole = shapely.force_2d(shapely.orient_polygons(polygon))
         _, nodes, (rings, parts, *_) = shapely.to_ragged_array([whole])
         open_nodes = np.delete(nodes, rings[1:] - 1, axis=0)
         open_rings = Polygons(open_nodes, (rings - np.arange(rings.size)).astype(np.int64))
-        box = map(float, (*open_nodes.min(axis=0), *open_nodes.max(axis=0)))
-        return cls(*box, open_rings, np.asarray(parts, dtype=np.int64))
+        low, high = open_nodes.min(axis=0).tolist(), open_nodes.max(axis=0).tolist()
+        return cls(low[0], low[1], high[0], high[1], open_rings, np.asarray(parts, dtype=np.int64))
 
     def to_shapely(self) -> Any:
         """The region as a shapely MultiPolygon, its coordinates bit for bit."""

@@ -5,6 +5,7 @@ Polygons are a geometry container of the CF conventions (CF-1.9, section 7.5), r
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -13,7 +14,7 @@ import numpy as np
 from grainfront.errors import InputError
 from grainfront.files.contract import CONTACTS, PACKING, SHAPES
 from grainfront.files.dataset import Path, read_dataset, write_dataset
-from grainfront.particles import Packing, Rectangle
+from grainfront.particles import Packing, Rectangle, Region
 from grainfront.polygons import Polygons
 
 if TYPE_CHECKING:
@@ -188,15 +189,29 @@ def _within(index: np.ndarray, size: int) -> bool:
 
 def _to_wkt(domain: Rectangle) -> str:
     """The domain as WKT; Python's shortest digits give every float back exactly."""
-    x0, y0, x1, y1 = (float(v) for v in (domain.x_min, domain.y_min, domain.x_max, domain.y_max))
-    ring = ((x0, y0), (x1, y0), (x1, y1), (x0, y1), (x0, y0))
-    return f"POLYGON (({', '.join(f'{x!r} {y!r}' for x, y in ring)}))"
+    if isinstance(domain, Region):
+        polygons = (
+            f"({', '.join(_ring_to_wkt(domain.rings.polygon(r)) for r in range(first, last))})"
+            for first, last in itertools.pairwise(domain.parts.tolist())
+        )
+        return f"MULTIPOLYGON ({', '.join(polygons)})"
+    x0, y0, x1, y1 = domain.x_min, domain.y_min, domain.x_max, domain.y_max
+    return f"POLYGON ({_ring_to_wkt(np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)]))})"
+
+
+def _ring_to_wkt(ring: np.ndarray) -> str:
+    nodes = [*ring.tolist(), ring[0].tolist()]
+    return f"({', '.join(f'{x!r} {y!r}' for x, y in nodes)})"
 
 
 def _from_wkt(path: Path, text: str) -> Rectangle:
+    """The rectangle that `_to_wkt` wrote as a polygon, or the region it wrote as a multipolygon."""
     import shapely
 
     try:
-        return Rectangle(*shapely.from_wkt(text).bounds)
+        domain = shapely.from_wkt(text)
     except shapely.GEOSException as error:
         raise InputError(f"{path}: the domain is no WKT polygon ({error})") from error
+    if domain.geom_type == "MultiPolygon":
+        return Region.of(domain)
+    return Rectangle(*domain.bounds)

@@ -102,7 +102,7 @@ def overlaps_obstacle(obstacles, placed, domain, trials, trial, x, y):
 
 @inlined
 def from_nearest(placed, q, x, y):
-    """From the nearest point of the boundary of an obstacle to a point: distance squared and rise."""
+    """Distance squared and rise from the nearest point of an obstacle's boundary to a point."""
     nodes = placed.nodes
     before = placed.offsets[q + 1] - 1
     nearest = math.inf

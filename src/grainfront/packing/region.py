@@ -44,9 +44,7 @@ def discs_of(pieces: Polygons) -> np.ndarray:
     return np.column_stack([centre, circumradius, inradius])
 
 
-def add_obstacles(
-    placed: Placed, region: Region, circumradius: float
-) -> tuple[Placed, Obstacles]:
+def add_obstacles(placed: Placed, region: Region, circumradius: float) -> tuple[Placed, Obstacles]:
     """Store the pieces outside the region behind the particles; `circumradius` is that of these."""
     pieces = outside_pieces(region)
     first = len(placed.offsets)

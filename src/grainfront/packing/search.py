@@ -87,7 +87,15 @@ def resolve_below(front, placed, grid, domain, trials, trial, memory, base, i, k
             memory.seen[entry, np.uint64(trial.angle)] = memory.step[0]
         if near_obstacles(domain.obstacles, placed, domain, trial.circumradius, a, b):
             status, x, y, position, _ = settle(
-                domain.obstacles, front, placed, grid, domain, trials, trial, i, k,
+                domain.obstacles,
+                front,
+                placed,
+                grid,
+                domain,
+                trials,
+                trial,
+                i,
+                k,
                 ceiling + sinking,
             )
             if status != OVERLAPPING:
@@ -138,9 +146,7 @@ def choose_lowest(front, placed, grid, domain, trials, memory, particle, n_angle
     last = min(front.ends[0] + n_loc - 2, front_length(front) - 2)
     base = first - WIDTHS
     scout = shape_scout(trials, n_angle * count, n_angle, inradius)
-    bound_pairs(
-        front, placed, domain, trials, circumradius, scout, memory, base, first, last
-    )
+    bound_pairs(front, placed, domain, trials, circumradius, scout, memory, base, first, last)
     sort_pairs(memory, last + 1 - first)
     best = NO_TRIAL
     for n in range(last + 1 - first):

@@ -6,7 +6,7 @@ import numpy as np
 import shapely
 
 from grainfront.geometry.boxes import bounding_boxes
-from grainfront.particles import Packing
+from grainfront.particles import Packing, Region
 from grainfront.polygons import Polygons
 
 BULK_MARGIN = 2.0
@@ -25,6 +25,8 @@ def volume_fraction_bulk(packing: Packing) -> float:
     straddle the border of what remains count with their part inside. NaN where nothing remains.
     """
     domain = packing.domain
+    if isinstance(domain, Region):
+        return _fraction_within_region(packing, domain)
     margin = BULK_MARGIN * float(np.sqrt(packing.area.mean()))
     x_min, y_min = domain.x_min + margin, domain.y_min + margin
     x_max, y_max = domain.x_max - margin, domain.y_max - margin
@@ -42,6 +44,19 @@ def volume_fraction_bulk(packing: Packing) -> float:
     )
     area = packing.area[inside].sum() + clipped.sum()
     return float(area / ((x_max - x_min) * (y_max - y_min)))
+
+
+def _fraction_within_region(packing: Packing, region: Region) -> float:
+    margin = BULK_MARGIN * float(np.sqrt(packing.area.mean()))
+    inner = shapely.buffer(region.to_shapely(), -margin)
+    if inner.is_empty:
+        return float("nan")
+    shapely.prepare(inner)
+    shapes = packing.polygons.to_shapely()
+    inside = shapely.contains_properly(inner, shapes)
+    straddling = shapes[~inside & shapely.intersects(inner, shapes)]
+    clipped = shapely.area(shapely.intersection(straddling, inner))
+    return float((packing.area[inside].sum() + clipped.sum()) / inner.area)
 
 
 def volume_fraction_between(packing: Packing, axis: int, low: float, high: float) -> float:
