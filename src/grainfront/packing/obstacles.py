@@ -86,18 +86,21 @@ def leaves_rectangle(domain, trials, trial, x, y):
 
 
 @inlined
-def overlaps_obstacle(obstacles, placed, domain, trials, trial, x, y):
-    """Whether the trial at (x, y) overlaps an obstacle or leaves the bounding rectangle."""
+def overlapped_obstacle(obstacles, placed, domain, trials, trial, x, y):
+    """The first obstacle that the trial at (x, y) overlaps, or NOTHING.
+
+    BYPASSED where it leaves the bounding rectangle.
+    """
     if leaves_rectangle(domain, trials, trial, x, y):
-        return True
+        return BYPASSED
     left, right, bottom, top = cells_about(obstacles, domain, x, y, trial.circumradius)
     for row in range(bottom, top + 1):
         first = row * obstacles.columns
         for n in range(obstacles.start[first + left], obstacles.start[first + right + 1]):
             q = obstacles.first + obstacles.item[n]
             if overlaps_particle(placed, domain, trials, trial, q, x, y):
-                return True
-    return False
+                return q
+    return NOTHING
 
 
 @inlined
@@ -155,7 +158,7 @@ def touch_obstacle(obstacles, front, placed, grid, domain, trials, trial, i, k, 
     found, x, y = contact_of_pair(placed, domain, trials, trial, first, second)
     if not found or y >= best[2] or hangs_below(placed, q, x, y):
         return best
-    if overlaps_obstacle(obstacles, placed, domain, trials, trial, x, y):
+    if overlapped_obstacle(obstacles, placed, domain, trials, trial, x, y) != NOTHING:
         return best
     if overlaps_member(placed, domain, trials, trial, other, x, y):
         return best
@@ -179,22 +182,26 @@ def settle(obstacles, front, placed, grid, domain, trials, trial, i, k, ceiling)
     found, x, y = contact_of_pair(
         placed, domain, trials, trial, member_at(front, i), member_at(front, k)
     )
+    if found:
+        if y + trials.reach[trial.angle, 3] > domain.y_max + domain.tolerance:
+            return TOO_HIGH, x, y, NOTHING, BOTH
+        q = overlapped_obstacle(obstacles, placed, domain, trials, trial, x, y)
+        if q == NOTHING:
+            position = overlapped(front, placed, grid, domain, trials, trial, i, k, x, y)
+            if y > ceiling or position == BYPASSED:
+                return nowhere
+            return (RESOLVED if position == NOTHING else OVERLAPPING), x, y, position, BOTH
+        if q >= 0 and hangs_below(placed, q, x, y):
+            return TOO_HIGH, x, y, NOTHING, BOTH
     best = nowhere
-    if found and y + trials.reach[trial.angle, 3] > domain.y_max + domain.tolerance:
-        best = TOO_HIGH, x, ceiling, NOTHING, BOTH
-    elif found and not overlaps_obstacle(obstacles, placed, domain, trials, trial, x, y):
-        if y > ceiling:
-            return nowhere
-        position = overlapped(front, placed, grid, domain, trials, trial, i, k, x, y)
-        if position == BYPASSED:
-            return nowhere
-        return (RESOLVED if position == NOTHING else OVERLAPPING), x, y, position, BOTH
     for side in range(FORMER, LATTER + 1):
         partner = member_at(front, i if side == FORMER else k)
         if partner < 0:
             continue
-        obstacles.search[0] += 1
         about_x, about_y = placed.disc[partner, 0], placed.disc[partner, 1]
+        if about_y - placed.disc[partner, 2] - trial.circumradius >= best[2]:
+            continue
+        obstacles.search[0] += 1
         reach = placed.disc[partner, 2] + 2.0 * trial.circumradius
         left, right, bottom, top = cells_about(obstacles, domain, about_x, about_y, reach)
         for row in range(bottom, top + 1):

@@ -44,8 +44,9 @@ def shape_scout(trials, start, angle, inradius):
 def send_scout(front, placed, domain, trials, circumradius, scout, memory, base, begin, p):
     """Resolve the scout from pair p and note its place: its height and the pairs it covers.
 
-    Where a wall or an obstacle is near or the memory ends, the height is −∞: no bound. A pair that
-    another scout of this step came by leads to the same place.
+    Where a wall is met or the memory ends, the height is −∞: no bound. Where an obstacle is near,
+    it is the least that a particle can touch the pair at. A pair that another scout of this step
+    came by leads to the same place.
     """
     i = begin + p
     k = i + 1
@@ -59,6 +60,10 @@ def send_scout(front, placed, domain, trials, circumradius, scout, memory, base,
         if a < 0 or b < 0 or row < 0 or width >= WIDTHS:
             break
         if near_obstacles(domain.obstacles, placed, domain, circumradius, a, b):
+            memory.height[p] = min(
+                placed.disc[a, 1] - placed.disc[a, 2], placed.disc[b, 1] - placed.disc[b, 2]
+            )
+            memory.height[p] -= circumradius
             break
         if memory.scouted[entry, 0] == memory.step[0]:
             same = memory.scouted[entry, 1]

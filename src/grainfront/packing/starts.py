@@ -22,10 +22,10 @@ from grainfront.packing.advance import (
     store,
     take_from_waiting,
 )
-from grainfront.packing.obstacles import overlaps_obstacle
+from grainfront.packing.obstacles import overlapped_obstacle
 from grainfront.packing.orientations import draw_orientations, turn_and_inflate
 from grainfront.packing.state import LEFT_WALL, RIGHT_WALL, Trial
-from grainfront.packing.trials import contact_of_pair
+from grainfront.packing.trials import NOTHING, contact_of_pair
 
 # A front begins only where no particle lies within so many circumradii of the new one: a hollow
 # that a front has left empty along a wall is no part that it has not reached.
@@ -69,7 +69,7 @@ def lowest_start(obstacles, placed, n_placed, domain, trials, particle, n_angle)
                 )
                 if not found or y >= best[2]:
                     continue
-                if overlaps_obstacle(obstacles, placed, domain, trials, trial, x, y):
+                if overlapped_obstacle(obstacles, placed, domain, trials, trial, x, y) != NOTHING:
                     continue
                 if empty_about(placed, n_placed, x, y, EMPTY_ABOUT * circumradius):
                     best = True, x, y, angle
