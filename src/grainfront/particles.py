@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -75,6 +76,29 @@ class Region(Rectangle):
         open_rings = Polygons(open_nodes, (rings - np.arange(rings.size)).astype(np.int64))
         low, high = open_nodes.min(axis=0).tolist(), open_nodes.max(axis=0).tolist()
         return cls(low[0], low[1], high[0], high[1], open_rings, np.asarray(parts, dtype=np.int64))
+
+    def without(self, inclusions: Sequence[shapely.Geometry]) -> Region:
+        """The region around inclusions: fixed particles, shapely Polygons or MultiPolygons.
+
+        Their area is no part of the domain any more. Raises InputError where one is no polygon,
+        covers no area or is not valid, and where it crosses another one or the boundary, so that
+        rounded nodes would come in where they cross.
+        """
+        import shapely
+
+        rest = self.to_shapely()
+        for number, inclusion in enumerate(inclusions):
+            try:
+                hole = Region.of(inclusion).to_shapely()
+            except InputError as error:
+                raise InputError(str(error).replace("The domain", f"Inclusion {number}")) from None
+            if not shapely.covers(rest, hole):
+                raise InputError(
+                    f"Inclusion {number} crosses the boundary of the domain or an inclusion before "
+                    "it, but must lie in the domain and beside the others."
+                )
+            rest = shapely.difference(rest, hole)
+        return Region.of(rest)
 
     def to_shapely(self) -> Any:
         """The region as a shapely MultiPolygon, its coordinates bit for bit."""

@@ -45,3 +45,29 @@ def test_a_region_is_the_polygon_it_was_made_of(added, removed):
 def test_what_is_no_polygon_is_refused(shape, says):
     with pytest.raises(InputError, match=says):
         Region.of(shape)
+
+
+SQUARE = shapely.box(0, 0, 9, 9)
+STAR = shapely.Polygon([(3, 3), (5, 4), (7, 3), (6, 5), (7, 7), (5, 6), (3, 7), (4, 5)])
+
+
+def test_inclusions_are_cut_out_node_by_node():
+    beside = shapely.box(7, 3, 9, 7)  # touches a tip of the star and the wall
+    region = Region.of(SQUARE).without([STAR, beside])
+    assert region.area == SQUARE.area - STAR.area - beside.area
+    nodes = {tuple(node) for shape in (SQUARE, STAR, beside) for node in shape.exterior.coords}
+    assert {tuple(node) for node in region.rings.nodes.tolist()} <= nodes
+
+
+@pytest.mark.parametrize(
+    ("inclusions", "says"),
+    [
+        ([STAR, shapely.box(6, 6, 8, 8)], "Inclusion 1 crosses"),
+        ([shapely.box(8, 8, 10, 10)], "Inclusion 0 crosses the boundary"),
+        ([shapely.LineString([(1, 1), (2, 2)])], "Inclusion 0 is a LineString"),
+        ([SQUARE], "an empty"),
+    ],
+)
+def test_inclusions_out_of_place_are_refused(inclusions, says):
+    with pytest.raises(InputError, match=says):
+        Region.of(SQUARE).without(inclusions)

@@ -164,6 +164,21 @@ def test_a_rectangle_given_as_polygon_is_filled_as_the_rectangle(effort):
     assert contacts[1] == pytest.approx(contacts[0], rel=0.15)
 
 
+def test_inclusions_are_packed_around():
+    """A star, whose notches are filled too, and a square beside it."""
+    angle = np.arange(10) * np.pi / 5
+    radius = np.where(np.arange(10) % 2, 1.5, 4.0)
+    star = Polygon(6 + np.column_stack([radius * np.cos(angle), radius * np.sin(angle)]))
+    inclusions = [star, box(0.5, 0.5, 2, 2)]
+    region = Region.of(box(0, 0, 12, 12)).without(inclusions)
+    packing = pack("hulls", region, 3, 3)
+    assert certify(packing).holds
+    shapes = packing.polygons.to_shapely()
+    assert not shapely.intersects(shapely.union_all(inclusions).buffer(-1e-9), shapes).any()
+    assert set(find_contacts(packing).wall.tolist()) == {0, 1, 2}
+    assert packing.area.sum() > 0.7 * region.area
+
+
 def test_a_domain_narrower_than_its_particles_stays_empty():
     assert pack("rectangles", Region.of(box(0, 0, 9, 0.4)), 1, 1).x.size == 0
 
