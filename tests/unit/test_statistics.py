@@ -19,6 +19,7 @@ from grainfront.statistics import (
     l2_error,
     measure,
     orientation_rose,
+    reach,
     size_correlation,
     void_ratio,
     volume_fraction,
@@ -266,3 +267,13 @@ def test_contacts_with_the_rings_of_a_region(packing_of):
     contacts = find_contacts(packing_of(squares, Region.of(frame)))
     found = list(zip(contacts.wall_particle.tolist(), contacts.wall.tolist(), strict=True))
     assert found == [(0, 0), (0, 1), (1, 1), (2, 0)]
+
+
+def test_a_room_without_particles_is_told(packing_of):
+    """Two rooms joined by a corridor that is narrower than the particle, which is in one."""
+    rooms = [shapely.box(0, 0, 4, 4), shapely.box(10, 0, 13, 4), shapely.box(4, 1, 10, 1.5)]
+    packing = packing_of([shifted(UNIT_SQUARE, 2, 2)], Region.of(shapely.union_all(rooms)))
+    reachable, empty = reach(packing)
+    corners = 8 * (0.25 - np.pi / 16)  # of the rooms, where a disc of radius 1/2 does not fit
+    assert reachable == pytest.approx(28 - corners, rel=0.001)
+    assert empty == pytest.approx(12 - corners / 2, rel=0.001)

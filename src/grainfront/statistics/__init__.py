@@ -11,6 +11,7 @@ from grainfront.statistics.distributions import (
     orientation_rose,
 )
 from grainfront.statistics.fractions import (
+    reach,
     void_ratio,
     volume_fraction,
     volume_fraction_between,
@@ -32,6 +33,7 @@ __all__ = [
     "l2_error",
     "measure",
     "orientation_rose",
+    "reach",
     "size_correlation",
     "void_ratio",
     "volume_fraction",

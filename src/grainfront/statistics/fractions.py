@@ -46,6 +46,24 @@ def volume_fraction_bulk(packing: Packing) -> float:
     return float(area / ((x_max - x_min) * (y_max - y_min)))
 
 
+def reach(packing: Packing) -> tuple[float, float]:
+    """Area of the domain that a disc of the mean size reaches, and how much of it stayed empty.
+
+    Corners and necks are left out where such a disc does not fit. Of what remains, parts are empty
+    that hold the centre of no particle: islands, or rooms beyond a neck.
+    """
+    domain = packing.domain
+    if not isinstance(domain, Region):
+        return domain.area, 0.0
+    radius = 0.5 * float(packing.size.mean())
+    rooms = shapely.get_parts(shapely.buffer(domain.to_shapely(), -radius))
+    centres = shapely.points(packing.x, packing.y)
+    holds = np.zeros(rooms.size, dtype=np.bool_)
+    holds[shapely.STRtree(rooms).query(centres, predicate="intersects")[1]] = True
+    areas = shapely.area(shapely.buffer(rooms, radius))
+    return float(areas.sum()), float(areas[~holds].sum())
+
+
 def _fraction_within_region(packing: Packing, region: Region) -> float:
     margin = BULK_MARGIN * float(np.sqrt(packing.area.mean()))
     inner = shapely.buffer(region.to_shapely(), -margin)
