@@ -275,5 +275,5 @@ def test_a_room_without_particles_is_told(packing_of):
     packing = packing_of([shifted(UNIT_SQUARE, 2, 2)], Region.of(shapely.union_all(rooms)))
     reachable, empty = reach(packing)
     corners = 8 * (0.25 - np.pi / 16)  # of the rooms, where a disc of radius 1/2 does not fit
-    assert reachable == pytest.approx(28 - corners, rel=0.001)
-    assert empty == pytest.approx(12 - corners / 2, rel=0.001)
+    assert reachable == pytest.approx(28 - corners, rel=0.005)
+    assert empty == pytest.approx(12 - corners / 2, rel=0.005)
