@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -19,7 +19,7 @@ from grainfront.geometry.exact import (
 from grainfront.geometry.outlines import interiors_meet, lies_inside
 from grainfront.geometry.rings import neighbours
 from grainfront.jit import kernel
-from grainfront.particles import Packing, Rectangle, Region
+from grainfront.particles import Cell, Packing, Rectangle, Region, tiled
 from grainfront.polygons import Polygons
 
 
@@ -53,8 +53,11 @@ def certify(packing: Packing) -> Certificate:
     overlap, and one unit in the last place of penetration is one; so with walls, of rectangles and
     of domains of any shape. Hulls are decided by the theorem of separating edges; outlines by their
     hulls and, where those overlap, by the outlines themselves. Raises InputError where a polygon is
-    not finite, simple and counter-clockwise.
+    not finite, simple and counter-clockwise. A periodic cell is tiled, 3 × 3 where both axes
+    repeat.
     """
+    if isinstance(packing.domain, Cell) and packing.x.size:
+        return _certify_cell(packing)
     polygons = packing.polygons
     if polygons.count == 0:
         none = np.empty(0, dtype=np.int64)
@@ -84,6 +87,17 @@ def certify(packing: Packing) -> Certificate:
         overlapping_pairs=pairs[overlapping],
         particles_across_wall=across,
     )
+
+
+def _certify_cell(packing: Packing) -> Certificate:
+    """The certificate of the cell with those about it, told of the particles of the cell."""
+    whole, n = certify(tiled(packing)), packing.x.size
+    pairs = np.unique(np.sort(whole.overlapping_pairs % n, axis=1), axis=0)
+    across = np.unique(whole.particles_across_wall % n)
+    return replace(
+        whole, particles=n, overlaps=len(pairs), across_wall=across.size,
+        overlapping_pairs=pairs, particles_across_wall=across,
+    )  # fmt: skip
 
 
 def _check_polygons(polygons: Polygons) -> np.ndarray:

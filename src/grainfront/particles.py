@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -118,6 +118,22 @@ class Region(Rectangle):
 
 
 @dataclass(frozen=True)
+class Cell(Rectangle):
+    """A rectangle that repeats itself along x, and where `along_y` along y too.
+
+    Particles belong to the cell that their centre is in, and may reach into the next ones.
+    """
+
+    along_y: bool
+
+    @property
+    def shifts(self) -> np.ndarray:
+        """From the cell to itself, first, and to those about it, shape (9, 2) or (3, 2)."""
+        rows = (0, -1, 1) if self.along_y else (0,)
+        return np.array([(i * self.width, j * self.height) for j in rows for i in (0, -1, 1)])
+
+
+@dataclass(frozen=True)
 class Packing:
     """Placed particles, in order of placement; arrays have shape (n_particles,).
 
@@ -138,3 +154,50 @@ class Packing:
     circumradius: np.ndarray
     shape: np.ndarray
     left_over: int
+
+    def moved(self, by: np.ndarray) -> Packing:
+        """The packing with every particle moved by a vector, (2,), or each by its own, (n, 2)."""
+        by = np.broadcast_to(by, (self.x.size, 2))
+        nodes = self.polygons.nodes + np.repeat(by, self.polygons.node_counts, axis=0)
+        polygons = Polygons(nodes, self.polygons.offsets)
+        return replace(self, polygons=polygons, x=self.x + by[:, 0], y=self.y + by[:, 1])
+
+    def chosen(self, index: np.ndarray) -> Packing:
+        """The packing with some of its particles alone."""
+        polygons = Polygons.of(self.polygons.polygon(i) for i in index.tolist())
+        return replace(
+            self, polygons=polygons, **{name: getattr(self, name)[index] for name in _FIELDS}
+        )
+
+    def joined(self, other: Packing, domain: Rectangle) -> Packing:
+        """The particles of two packings in one domain."""
+        both = (self.polygons, other.polygons)
+        return replace(
+            self,
+            domain=domain,
+            polygons=Polygons.of(p.polygon(i) for p in both for i in range(p.count)),
+            left_over=self.left_over + other.left_over,
+            **{n: np.concatenate([getattr(self, n), getattr(other, n)]) for n in _FIELDS},
+        )
+
+
+_FIELDS = ("x", "y", "size", "aspect_ratio", "orientation", "area", "circumradius", "shape")
+
+
+def tiled(packing: Packing) -> Packing:
+    """A periodic cell, first, and those about it as one packing between walls.
+
+    Along axes that repeat, the walls are about all particles.
+    """
+    cell = packing.domain
+    assert isinstance(cell, Cell), "only a cell repeats itself"
+    whole = replace(packing, left_over=0)
+    copies = [whole.moved(shift) for shift in cell.shifts[1:]]
+    for copy in copies:
+        whole = whole.joined(copy, cell)
+    (left, bottom), (right, top) = np.array(
+        [whole.polygons.nodes.min(axis=0), whole.polygons.nodes.max(axis=0)]
+    ).tolist()
+    if not cell.along_y:
+        bottom, top = cell.y_min, cell.y_max
+    return replace(whole, domain=Rectangle(left, bottom, right, top))

@@ -60,6 +60,7 @@ LIBRARIES = {
         "geometry.boxes",
         "geometry.pieces",
         "packing.region",
+        "packing.periodic",
         "shapes",
         "statistics",
         "files.netcdf",

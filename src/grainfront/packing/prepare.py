@@ -126,8 +126,12 @@ def prepare(
     n_angle: int,
     n_loc: int,
     rng: np.random.Generator,
+    fixed: Polygons | None = None,
 ) -> State:
-    """An empty packing with all its arrays; see `pack_hulls`."""
+    """An empty packing with all its arrays; see `pack_hulls`.
+
+    Around `fixed`, convex particles, the hollows of a region are filled one by one.
+    """
     n = size.size
     supply = _supply(hulls, shape, size, rng)
     circumradius = supply.circumradius[shape] * size
@@ -144,7 +148,7 @@ def prepare(
     if isinstance(domain, Region):
         from grainfront.packing.region import add_obstacles
 
-        placed, obstacles = add_obstacles(placed, domain, float(np.median(circumradius)))
+        placed, obstacles = add_obstacles(placed, domain, fixed, float(np.median(circumradius)))
         walls = walls._replace(obstacles=obstacles)
     return State(
         front=make_front(n),

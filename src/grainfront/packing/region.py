@@ -16,6 +16,9 @@ from grainfront.polygons import Polygons
 # Pieces reach this far beyond the bounding rectangle, in its longer sides: enough for them to be
 # no thinner than the domain is.
 BORDER = 0.5
+# A front begins only where no particle lies within so many circumradii of its first one: a hollow
+# that a front has left empty along a wall is no part that it has not reached.
+EMPTY_ABOUT = 3.0
 # Cells are as wide as the median particle, unless they were more than this: finer cells cost memory
 # and tell no better which obstacles are near.
 MOST_CELLS = 2**18
@@ -44,19 +47,29 @@ def discs_of(pieces: Polygons) -> np.ndarray:
     return np.column_stack([centre, circumradius, inradius])
 
 
-def add_obstacles(placed: Placed, region: Region, circumradius: float) -> tuple[Placed, Obstacles]:
-    """Store the pieces outside the region behind the particles; `circumradius` is that of these."""
+def add_obstacles(
+    placed: Placed, region: Region, fixed: Polygons | None, circumradius: float
+) -> tuple[Placed, Obstacles]:
+    """Store the pieces outside the region behind the particles; `circumradius` is that of these.
+
+    `fixed` are convex particles to be packed around, which may leave but hollows: each of them may
+    get a front of its own.
+    """
     pieces = outside_pieces(region)
+    if fixed is not None:
+        pieces = Polygons.of(p.polygon(i) for p in (pieces, fixed) for i in range(p.count))
     first = len(placed.offsets)
     longer = placed._replace(
         nodes=np.concatenate([placed.nodes, pieces.nodes]),
         offsets=np.concatenate([placed.offsets, len(placed.nodes) + pieces.offsets]),
         disc=np.concatenate([placed.disc, np.zeros((1, 4)), discs_of(pieces)]),
     )
-    return longer, make_obstacles(region, pieces, first, circumradius)
+    return longer, make_obstacles(region, fixed, pieces, first, circumradius)
 
 
-def make_obstacles(region: Region, pieces: Polygons, first: int, circumradius: float) -> Obstacles:
+def make_obstacles(
+    region: Region, fixed: Polygons | None, pieces: Polygons, first: int, circumradius: float
+) -> Obstacles:
     """The cells of the pieces; `first` is their first index, `circumradius` that of particles."""
     cell = max(2.0 * circumradius, math.sqrt(region.width * region.height / MOST_CELLS))
     columns, rows = math.floor(region.width / cell) + 1, math.floor(region.height / cell) + 1
@@ -69,6 +82,7 @@ def make_obstacles(region: Region, pieces: Polygons, first: int, circumradius: f
     bounds = shapely.bounds(pieces.to_shapely())
     return Obstacles(
         first=first,
+        empty_about=EMPTY_ABOUT if fixed is None else 0.0,
         box=np.ascontiguousarray(bounds),
         cell=float(cell),
         columns=columns,

@@ -25,11 +25,7 @@ from grainfront.packing.advance import (
 from grainfront.packing.obstacles import overlapped_obstacle
 from grainfront.packing.orientations import draw_orientations, turn_and_inflate
 from grainfront.packing.state import LEFT_WALL, RIGHT_WALL, Trial
-from grainfront.packing.trials import NOTHING, contact_of_pair
-
-# A front begins only where no particle lies within so many circumradii of the new one: a hollow
-# that a front has left empty along a wall is no part that it has not reached.
-EMPTY_ABOUT = 3.0
+from grainfront.packing.trials import NOTHING, contact_of_pair, overlaps_particle
 
 
 @inlined
@@ -44,11 +40,14 @@ def boxes_within(box, o, p, distance):
 
 
 @inlined
-def empty_about(placed, n_placed, x, y, reach):
-    """Whether no particle comes within `reach` of a point."""
+def empty_about(obstacles, placed, n_placed, domain, trials, trial, x, y):
+    """Whether no particle is near a trial at (x, y), as near as a front may begin to another."""
+    reach = obstacles.empty_about * trial.circumradius
     for q in range(n_placed):
         far = reach + placed.disc[q, 2]
         if (placed.disc[q, 0] - x) ** 2 + (placed.disc[q, 1] - y) ** 2 < far * far:
+            return False
+        if overlaps_particle(placed, domain, trials, trial, q, x, y):
             return False
     return True
 
@@ -71,7 +70,7 @@ def lowest_start(obstacles, placed, n_placed, domain, trials, particle, n_angle)
                     continue
                 if overlapped_obstacle(obstacles, placed, domain, trials, trial, x, y) != NOTHING:
                     continue
-                if empty_about(placed, n_placed, x, y, EMPTY_ABOUT * circumradius):
+                if empty_about(obstacles, placed, n_placed, domain, trials, trial, x, y):
                     best = True, x, y, angle
     return best
 

@@ -29,6 +29,7 @@ class Obstacles(NamedTuple):
     """
 
     first: int
+    empty_about: float  # circumradii about the start of a front that are free of particles
     box: np.ndarray  # (n_obstacles, 4) bounding boxes
     cell: float
     columns: int

@@ -10,7 +10,7 @@ import shapely
 from grainfront.geometry.boxes import bounding_boxes, close_pairs
 from grainfront.geometry.nearness import near_nodes_and_edges
 from grainfront.geometry.rings import neighbours
-from grainfront.particles import CONTACT_TOLERANCE, Packing, Region
+from grainfront.particles import CONTACT_TOLERANCE, Cell, Packing, Region, tiled
 from grainfront.polygons import Polygons
 
 
@@ -37,7 +37,12 @@ class Contacts:
 
 
 def find_contacts(packing: Packing) -> Contacts:
-    """Find the pairs whose gap is at most `CONTACT_TOLERANCE` × mean size, walls apart."""
+    """Find the pairs whose gap is at most `CONTACT_TOLERANCE` × mean size, walls apart.
+
+    In a periodic cell, contacts with the images of its particles count too, each once.
+    """
+    if isinstance(packing.domain, Cell):
+        return _contacts_of_cell(packing, packing.domain)
     tolerance = CONTACT_TOLERANCE * float(packing.size.mean())
     polygons, domain = packing.polygons, packing.domain
     boxes = bounding_boxes(polygons.nodes, polygons.offsets)
@@ -48,6 +53,21 @@ def find_contacts(packing: Packing) -> Contacts:
         upper = [domain.x_max, domain.y_max] - boxes[:, 2:]
         wall_particle, wall = np.nonzero(np.hstack([lower, upper]) <= tolerance)
     return Contacts(*_pair_contacts(polygons, boxes, tolerance), wall_particle, wall)
+
+
+def _contacts_of_cell(packing: Packing, cell: Cell) -> Contacts:
+    """Of the contacts of the tiled cell, those of its own particles, and with images one of two."""
+    whole, n = find_contacts(tiled(packing)), packing.x.size
+    first, second = whole.pairs.T
+    kept = (first < n) & (first < second % n)
+    walls = (whole.wall_particle < n) & np.isin(whole.wall, () if cell.along_y else (1, 3))
+    return Contacts(
+        np.column_stack([first, second % n])[kept],
+        whole.position[kept],
+        whole.normal[kept],
+        whole.wall_particle[walls],
+        whole.wall[walls],
+    )
 
 
 def _ring_contacts(

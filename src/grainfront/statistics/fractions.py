@@ -6,7 +6,7 @@ import numpy as np
 import shapely
 
 from grainfront.geometry.boxes import bounding_boxes
-from grainfront.particles import Packing, Region
+from grainfront.particles import Cell, Packing, Region
 from grainfront.polygons import Polygons
 
 BULK_MARGIN = 2.0
@@ -27,6 +27,8 @@ def volume_fraction_bulk(packing: Packing) -> float:
     domain = packing.domain
     if isinstance(domain, Region):
         return _fraction_within_region(packing, domain)
+    if isinstance(domain, Cell):
+        return _fraction_of_cell(packing, domain)
     margin = BULK_MARGIN * float(np.sqrt(packing.area.mean()))
     x_min, y_min = domain.x_min + margin, domain.y_min + margin
     x_max, y_max = domain.x_max - margin, domain.y_max - margin
@@ -75,6 +77,16 @@ def _fraction_within_region(packing: Packing, region: Region) -> float:
     straddling = shapes[~inside & shapely.intersects(inner, shapes)]
     clipped = shapely.area(shapely.intersection(straddling, inner))
     return float((packing.area[inside].sum() + clipped.sum()) / inner.area)
+
+
+def _fraction_of_cell(packing: Packing, cell: Cell) -> float:
+    if cell.along_y:
+        return volume_fraction(packing)
+    margin = BULK_MARGIN * float(np.sqrt(packing.area.mean()))
+    bottom, top = cell.y_min + margin, cell.y_max - margin
+    if bottom >= top:
+        return float("nan")
+    return volume_fraction_between(packing, 1, bottom, top)
 
 
 def volume_fraction_between(packing: Packing, axis: int, low: float, high: float) -> float:
