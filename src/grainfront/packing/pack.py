@@ -1,4 +1,4 @@
-"""Packing hulls into a rectangle until it is full."""
+"""Packing hulls into a domain until it is full."""
 
 from __future__ import annotations
 
@@ -46,9 +46,9 @@ def pack_hulls(
     `hulls` are standardised (centroid at the origin, S = 1, orientation 0), `aspect_ratio`,
     (n_shapes,), is theirs. Particle i is a copy of `hulls.polygon(shape[i])` scaled by `size[i]`.
     Particles are taken in this order, so `shape` and `size`, (n,), must hold enough to fill the
-    domain. `progress` is told the particles placed and the volume fraction so far. With
-    n_angle = n_loc = 1 this is the plain advancing front method. Source: Du et al. (2023),
-    sections 3 and 4.
+    domain, a rectangle or a region of any shape. `progress` is told the particles placed and the
+    volume fraction so far. With n_angle = n_loc = 1 this is the plain advancing front method.
+    Source: Du et al. (2023), sections 3 and 4.
     """
     empty = prepare(hulls, shape, size, orientation, domain, n_angle, n_loc, rng)
     return fill(empty, aspect_ratio, progress)
@@ -60,7 +60,8 @@ def fill(
     progress: Callable[[int, float], None] | None = None,
 ) -> tuple[Packing, RunTime]:
     """Pack the particles of an empty packing until its domain is full; see `pack_hulls`."""
-    with compiling(f"{search_of(empty.n_angle, empty.n_loc)} search") as compilation:
+    among = "" if empty.domain.obstacles is None else " among obstacles"
+    with compiling(f"{search_of(empty.n_angle, empty.n_loc)} search{among}") as compilation:
         empty.advance_to(0)
     kernel_s = run(empty, empty.supply.size.size, progress)
     return as_packing(empty, aspect_ratio), RunTime(kernel_s, compilation.seconds)

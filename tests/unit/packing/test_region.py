@@ -12,11 +12,13 @@ from hypothesis import strategies as st
 from shapely import Point, Polygon, box
 
 from grainfront.certificate import certify
+from grainfront.errors import InputError
 from grainfront.geometry.rings import polygon_areas
 from grainfront.packing.orientations import orientation_law
 from grainfront.packing.pack import pack_hulls
 from grainfront.packing.prepare import prepare
 from grainfront.packing.region import outside_pieces
+from grainfront.packing.steering import Steering
 from grainfront.particles import Rectangle, Region
 from grainfront.polygons import Polygons
 from grainfront.statistics import find_contacts, reach, volume_fraction_bulk
@@ -178,6 +180,13 @@ def test_inclusions_are_packed_around():
     assert not shapely.intersects(shapely.union_all(inclusions).buffer(-1e-9), shapes).any()
     assert set(find_contacts(packing).wall.tolist()) == {0, 1, 2}
     assert packing.area.sum() > 0.7 * region.area
+
+
+def test_a_target_is_refused():
+    hulls, shape, size, law, rng = particles("hulls", 100.0, 0.5, 0)
+    state = prepare(hulls, shape, size, law, Region.of(l_shape(10.0)), 2, 2, rng)
+    with pytest.raises(InputError, match="rectangles only"):
+        Steering(state, np.ones(hulls.count), rng)
 
 
 def test_a_domain_narrower_than_its_particles_stays_empty():
