@@ -92,6 +92,12 @@ def volume_fractions(packing: Packing) -> tuple[float, float]:
     return statistics.volume_fraction(packing), statistics.volume_fraction_bulk(packing)
 
 
+def volume_fraction_of_outlines(packing: Packing, database: ShapeDatabase) -> float:
+    """Volume fraction that packed hulls have once their outlines have replaced them."""
+    area = database.descriptors["area"][packing.shape] * packing.size**2
+    return float(area.sum() / packing.domain.area)
+
+
 def measure(scene: Scene, database: ShapeDatabase, packing: Packing) -> PackingStatistics:
     """Measure fractions, contacts and segregation, and compare what was placed with the laws.
 

@@ -146,7 +146,7 @@ def _pack(options: argparse.Namespace) -> None:
     }
     outlines = ""
     if scene.replacement:
-        of_outlines, _ = api.volume_fractions(api.replace(packing, database))
+        of_outlines = api.volume_fraction_of_outlines(packing, database)
         result["volume_fraction_outlines"] = of_outlines
         outlines = f", their outlines {of_outlines:.4f}"
     if options.json:

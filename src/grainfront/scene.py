@@ -132,11 +132,13 @@ def _scene(path: Path, text: str, data: dict[str, Any]) -> Scene:
     domain = _domain(data["domain"])
     size = _law("size", data)
     _require_room(domain, size)
+    seeds = _seeds(data)
+    _require_seeds(seeds[0], data)
     return Scene(
         name=path.stem,
         text=text,
         length_unit=data["length_unit"],
-        seeds=_seeds(data),
+        seeds=seeds,
         domain=domain,
         shapes=_shapes(data["shapes"], path.parent),
         size=size,
@@ -156,6 +158,18 @@ def _seeds(data: dict[str, Any]) -> tuple[int, ...]:
         found = "both seed and seeds are" if "seed" in data else "neither seed nor seeds is"
         raise InputError(f"{found} given, but there must be exactly one of them")
     return tuple(int(seed) for seed in data.get("seeds", [data.get("seed")]))
+
+
+def _require_seeds(first: int, data: dict[str, Any]) -> None:
+    """Raise InputError where seeds that count up from the first leave the range of seeds."""
+    largest = scene_schema()["properties"]["seed"]["maximum"]
+    for key in ("sweep", "error_vs_time"):
+        number = data[key]["seeds"] if key in data else 1
+        if first + number - 1 > largest:
+            raise InputError(
+                f"{key}.seeds is {number:g}, but they count up from the scene's first, {first}, "
+                f"and seeds must be at most {largest}"
+            )
 
 
 def _domain(data: dict[str, Any]) -> Rectangle:

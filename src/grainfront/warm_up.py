@@ -37,7 +37,7 @@ def _smallest_scene(trials: int) -> tuple[Scene, ShapeDatabase]:
         outlines=Polygons.of([dented]),
         hulls=Polygons.of([dented[on_hull]]),
         hull_nodes=on_hull,
-        descriptors={"aspect_ratio": np.ones(1), "hull_area": np.ones(1)},
+        descriptors={"aspect_ratio": np.ones(1), "hull_area": np.ones(1), "area": np.full(1, 0.95)},
         counts={},
     )
     scene = Scene(

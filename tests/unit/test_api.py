@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import grainfront
-from grainfront import api
+from grainfront import api, scene_packing
 from grainfront.errors import InputError
 from grainfront.laws import Constant, Lognormal, Uniform
 from grainfront.particles import Rectangle
@@ -109,7 +109,7 @@ def test_twice_the_lengths_give_twice_the_packing(database):
 )
 def test_enough_is_drawn_that_not_all_can_be_placed(database, size):
     some = scene(size=size)
-    shape, drawn = api._draw_enough(some, database, 1)
+    shape, drawn = scene_packing._draw_enough(some, database, 1)
     area = database.descriptors["hull_area"][shape] * drawn**2
     assert np.sort(area)[:-8].sum() >= some.domain.area
 

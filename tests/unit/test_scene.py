@@ -190,6 +190,16 @@ FAULTS = [
     ("seed: 3", "seed: 3\nseed: 4", ["line 3", "'seed' is given twice"]),
     ("seed: 3", "seed: [3", ["not valid YAML"]),
     ("seed: 3", "seed: 9223372036854775808", ["seed is 9", "at most 9223372036854775807"]),
+    (
+        "seed: 3",
+        "seed: 9223372036854775807\nsweep: {n_angle: [1], n_loc: [1], seeds: 2}",
+        ["sweep.seeds is 2", "count up", "at most 9223372036854775807"],
+    ),
+    (
+        "seed: 3",
+        "seed: 9223372036854775806\nerror_vs_time: {axes: [checks], seeds: 3}",
+        ["error_vs_time.seeds is 3", "count up"],
+    ),
     ("seed: 3", f"seed: 1{'0' * 400}", ["seed is 1000", "magnitude between"]),
     ("seed: 3", "seeds: &a [*a]", ["line 2", "aliases such as *a are not allowed"]),
     ("seed: 3", "seed: 3\npacking: {n_angle: 1e6}", ["packing.n_angle is 1000000", "at most"]),

@@ -23,6 +23,7 @@ from grainfront.statistics import (
     size_correlation,
     void_ratio,
     volume_fraction,
+    volume_fraction_between,
     volume_fraction_bulk,
 )
 
@@ -65,6 +66,27 @@ def test_fractions_of_a_full_and_a_sparse_lattice(packing_of):
     sparse = packing_of(square_lattice(10, 8, 0.5), Rectangle(-0.5, -0.5, 9.5, 7.5))
     assert volume_fraction(sparse) == pytest.approx(0.25)
     assert void_ratio(volume_fraction(sparse)) == pytest.approx(3.0)
+
+
+@given(axis=st.sampled_from([0, 1]), low=st.floats(-0.2, 0.5), width=st.floats(0.01, 0.6))
+@settings(max_examples=30, deadline=None)
+def test_the_fraction_between_two_lines_is_that_of_the_clipped_polygons(
+    packing_of, axis, low, width
+):
+    cells = voronoi_cells(60, np.random.default_rng(4))[0]
+    packing = packing_of(cells, Rectangle(0.0, 0.0, 1.0, 1.0))
+    high = low + width
+    box = shapely.box(low, 0.0, high, 1.0) if axis == 0 else shapely.box(0.0, low, 1.0, high)
+    clipped = shapely.area(shapely.intersection(packing.polygons.to_shapely(), box)).sum()
+    found = volume_fraction_between(packing, axis, low, high)
+    assert found == pytest.approx(clipped / box.area, rel=1e-11, abs=1e-14)
+
+
+def test_upright_edges_on_the_lines_count_too(packing_of):
+    square = 2.0 * UNIT_SQUARE
+    packing = packing_of([shifted(square, 1, 1), shifted(square, 5, 1)], Rectangle(0, 0, 6, 2))
+    for axis, low, high, expected in ((0, 2, 4, 0), (0, 1, 5, 0.5), (1, 0.5, 1.5, 2 / 3)):
+        assert volume_fraction_between(packing, axis, low, high) == pytest.approx(expected)
 
 
 def test_bulk_clips_particles_exactly(packing_of):

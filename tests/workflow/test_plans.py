@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -49,6 +50,9 @@ STAGES = {
     "shapes": {"scene": "S", "database": "O/shapes.nc"},
     "packing": {"scene": "S", "database": "R/shapes.nc", "seed": 1, "packing": "O/packing.nc",
                 "timing": "O/timing.json"},
+    "packing_to_target": {"scene": "T", "database": "R/shapes.nc",
+                          "seed": 1, "contour": None, "packing": "O/packing.nc",
+                          "target": "O/target.nc", "timing": "O/timing.json"},
     "replacement": {"scene": "S", "database": "R/shapes.nc", "seed": 1,
                     "packing": "R/1/packing.nc", "nonconvex": "O/nonconvex.nc"},
     "contacts": {"scene": "S", "seed": 1, "packing": "R/1/packing.nc",
@@ -66,6 +70,7 @@ HEAVY = {"skimage", "matplotlib", "pyvista", "vtkmodules", "xarray", "numba"}
 USES = {
     "shapes": set(),
     "packing": {"numba"},
+    "packing_to_target": {"numba"},
     "replacement": {"numba"},
     "contacts": {"numba"},
     "statistics": {"numba"},
@@ -77,6 +82,9 @@ USES = {
 @pytest.mark.parametrize("stage", STAGES)
 def test_a_stage_imports_what_it_uses_and_its_digest_covers(stage, built, tmp_path):
     places = {"S": "config/scenes/tiny.yaml", "R": "results/tiny", "O": str(tmp_path)}
+    places["T"] = str(tmp_path / "targeted.yaml")
+    text = (built.folder / places["S"]).read_text(encoding="utf-8")
+    Path(places["T"]).write_text(f"{text}target_volume_fraction: 0.725\ntarget_tolerance: 0.01\n")
 
     def placed(value):
         if isinstance(value, list):

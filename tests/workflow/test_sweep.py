@@ -107,6 +107,24 @@ def test_a_killed_sweep_resumes_after_the_packings_that_are_finished(project):
     assert not finished(project)
 
 
+def test_a_damaged_packing_is_told_with_what_to_do(project, monkeypatch):
+    with_sweep(project, {"n_angle": [1], "n_loc": [1], "seeds": 1})
+    monkeypatch.chdir(project.folder)
+    scene, database = "config/scenes/tiny.yaml", "shapes.nc"
+    stages.shapes(scene=scene, database=database)
+    chunk = dict(scene=scene, database=database, chunk=1, chunks=1, folder="kept", threads=1)
+    stages.sweep(**chunk)
+    (file,) = project.folder.glob("kept/*/1_1_1.json")
+    whole = file.read_text()
+    file.write_text(whole[:30])
+    with pytest.raises(SystemExit, match=f"{file.name}: is cut off or damaged, .* removed"):
+        stages.sweep(**chunk)
+    file.unlink()
+    stages.sweep(**chunk)
+    again, before = json.loads(file.read_text()), json.loads(whole)
+    assert again | {"kernel_s": 0} == before | {"kernel_s": 0}
+
+
 def test_the_scene_that_shows_it_is_swept_in_one_job(project):
     jobs = project.planned("--config", "scenes=[contour_rectangles]")
     assert jobs["contour"] == jobs["contour_picture"] == 1

@@ -16,7 +16,15 @@ def sweep_depends_on(wildcards):
     scene = SCENES[wildcards.scene]
     fields = [
         getattr(scene, name)
-        for name in ("length_unit", "domain", "size", "matched", "orientation", "sweep")
+        for name in (
+            "length_unit",
+            "domain",
+            "size",
+            "matched",
+            "orientation",
+            "sweep",
+            "replacement",
+        )
     ]
     return repr([*fields, scene.packing.n_bin, scene.seeds[0]])
 

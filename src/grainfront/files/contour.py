@@ -42,6 +42,9 @@ CONTOUR = Contract(
         "volume_fraction": Variable(
             "double", AXES, "1", "area of the particles over area of the domain"
         ),
+        "volume_fraction_outlines": Variable(
+            "double", AXES, "1", "the same with the outlines for the hulls", optional=True
+        ),
         "volume_fraction_bulk": Variable(
             "double", AXES, "1", "volume fraction away from the walls", finite=False
         ),
@@ -100,8 +103,12 @@ class Contour:
 
     @property
     def volume_fraction(self) -> np.ndarray:
-        """Volume fraction of each pair, the mean over its seeds, shape (n, m)."""
-        return self.values["volume_fraction"].mean(axis=2)
+        """Volume fraction of each pair, the mean over its seeds, shape (n, m).
+
+        It is that of what the scene ends with: of the outlines, where they replace the hulls.
+        """
+        of_hulls = self.values["volume_fraction"]
+        return self.values.get("volume_fraction_outlines", of_hulls).mean(axis=2)
 
 
 def write_contour(path: Path, contour: Contour, *, scene_text: str, length_unit: str) -> None:

@@ -36,7 +36,8 @@ TARGET = Contract(
                 "aim": "volume fraction aimed at below the front",
                 "lean": "aim less that of the shared particles",
                 "effort": "mean effort of the particles that the finish added, from 0 to 1",
-                "volume_fraction": "area of the particles over area of the domain",
+                "volume_fraction": "area of the particles, or of the outlines that will replace "
+                "them, over area of the domain",
             },
         ),
     },

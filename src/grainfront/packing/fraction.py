@@ -30,8 +30,8 @@ HALF_WAY = 0.5
 # 1,000 long grains may need as many; with 4,000 and more, two starts are rare.
 MOST_STARTS, MOST_FINISHES = 8, 8
 # With the effort at its end and the fraction farther than this many tolerances away, the target is
-# out of reach; nearer, another start may have more luck.
-OUT_OF_LUCK = 5.0
+# out of reach; nearer, so many starts in all may have more luck.
+OUT_OF_LUCK, STARTS_AT_END = 5.0, 3
 # Finishes in a row with effort or aim at their ends after which no other will do better; an effort
 # that near to 0 or 1 is at its end.
 ENOUGH_AT_END, AT_END = 3, 0.02
@@ -94,7 +94,7 @@ def pack_to_fraction(
                 break
         effort = start.settled
         lacked.append(missing)
-        hopeless = closest > OUT_OF_LUCK * tolerance
+        hopeless = closest > OUT_OF_LUCK * tolerance or number + 1 >= STARTS_AT_END
         if closest <= tolerance or (hopeless and _spent(effort, finish.volume_fraction < target)):
             break
     attempts = Attempts(tuple(finishes), closest <= tolerance)
@@ -145,5 +145,7 @@ def effort_from_map(
             np.interp(of_loc * np.log(most_n_loc), np.log(n_loc), row) for row in volume_fraction
         ]
         along.append(np.interp(of_angle * np.log(most_n_angle), np.log(n_angle), at_n_loc))
+    if np.ptp(along) == 0.0:
+        return HALF_WAY  # a map of one point tells nothing
     # a map has noise: the first effort from which on the target is reached
     return float(effort[np.argmax(np.maximum.accumulate(along) >= min(target, np.max(along)))])

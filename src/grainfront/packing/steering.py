@@ -24,10 +24,9 @@ from grainfront.packing.prepare import State
 # enough for many finishes to cost less than another packing. At least some rows, as high as the
 # mean particle is long.
 FINISH_SHARE, FINISH_ROWS = 0.15, 4.0
-# First guess of the solid missing along the top, in rows: so much times (circumradius /
-# inradius)^1.5, as long particles leave larger hollows, and no more than so many. Seen for
-# rectangles of λ = 1.5 and 4 (0.4 and 1.4 rows) and for gravel (0.36); finishes tell better.
-MISSING_ROWS, SLENDER_POWER, MOST_MISSING_ROWS = 0.165, 1.5, 2.0
+# First guess of the solid missing along the top, in rows: 0.1 to 0.4 were seen for rectangles of
+# λ = 1.5 and 4 and for gravel. Finishes tell better.
+MISSING_ROWS = 0.25
 # Finishes may aim this far beside the rest of the packing, which is to stay even.
 MOST_LEAN = 0.02
 
@@ -92,13 +91,11 @@ class Steering:
         self.empty, self.particle_area, self.rng = empty, particle_area, rng
         self.mean_area = float(np.mean(particle_area[supply.shape] * supply.size**2))
         self.row = 2.0 * float(np.mean(radii * supply.size)) / empty.domain_height
-        self.slenderness = float(np.mean(radii / supply.inradius[supply.shape]))
         self.seconds = 0.0
 
     def first_missing(self, target: float) -> float:
         """A guess of the solid missing along the top, as share of the domain."""
-        rows = MISSING_ROWS * self.slenderness**SLENDER_POWER
-        return min(rows, MOST_MISSING_ROWS) * self.row * target
+        return MISSING_ROWS * self.row * target
 
     def control(self, aim: float, effort: float) -> Control:
         """A controller with random numbers of its own."""
@@ -127,6 +124,7 @@ class Steering:
         lean = aim - start.control.aim
         control = self.control(aim, start.settled + lean / RISE)
         control.area[:] = start.control.area
+        control.below[:] = start.control.below
         state = start.state.copy().steered(control, self.rng)
         self.seconds += run(state, state.supply.size.size)
         shared = start.state.n_placed

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from grainfront import api
+from grainfront.errors import InputError
 from grainfront.stages.sources import sources_digest
 from grainfront.stages.stage import stage
 
@@ -60,7 +61,8 @@ def _pack(
     """The numbers of these points, each packed now or found in a file of its own in `folder`.
 
     The files stand in a folder named by a digest of all that the numbers depend on, so that those
-    of an edited scene are never taken for these. Each is whole or absent.
+    of an edited scene are never taken for these. Each is whole or absent; InputError where one has
+    been damaged since.
     """
     from grainfront.files.atomic import write_text
     from grainfront.files.netcdf import read_shapes
@@ -74,11 +76,24 @@ def _pack(
     with closing(pack_points(scene, read_shapes(database), missing, threads)) as packed:
         for point, numbers in packed:
             write_text(files[point], json.dumps(numbers) + "\n")
-    return {point: json.loads(file.read_text()) for point, file in files.items()}
+    return {point: _numbers(file) for point, file in files.items()}
+
+
+def _numbers(file: Path) -> dict[str, float]:
+    try:
+        return json.loads(file.read_text(encoding="utf-8"))
+    except ValueError:
+        raise InputError(
+            f"{file}: is cut off or damaged, but must hold the numbers of a packing; once it is "
+            "removed, that packing is made again"
+        ) from None
 
 
 def _digest(scene: Scene, database: str) -> str:
-    fields = (scene.domain, scene.size, scene.matched, scene.orientation, scene.packing.n_bin)
+    fields = (
+        scene.domain, scene.size, scene.matched, scene.orientation, scene.packing.n_bin,
+        scene.replacement,
+    )  # fmt: skip
     digest = hashlib.sha256(f"{fields} {sources_digest('sweep')}".encode())
     digest.update(Path(database).read_bytes())
     return digest.hexdigest()[:16]

@@ -124,6 +124,8 @@ def measure_point(scene: Scene, database: ShapeDatabase, point: Point) -> dict[s
         "left_over": measured.left_over,
         "kernel_s": run_time.kernel_s,
     }
+    if scene.replacement:
+        numbers["volume_fraction_outlines"] = api.volume_fraction_of_outlines(packing, database)
     for law, placed in measured.distributions.items():
         numbers[f"{law}_l2_error"] = placed.l2_error
         numbers[f"{law}_noise_level"] = placed.noise_level

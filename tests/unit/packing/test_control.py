@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import shapely
 
-from grainfront.packing.control import ENCLOSED, SOLID, make_control
+from grainfront.packing.control import EFFORT_SUM, ENCLOSED, SOLID, make_control
 from grainfront.packing.front import front_length, member_at
 from grainfront.packing.orientations import orientation_law
 from grainfront.packing.prepare import prepare
@@ -15,12 +15,15 @@ from grainfront.particles import Rectangle
 from grainfront.polygons import Polygons
 
 
-def steered(corners, particles, seed, aim=0.75):
-    """A packing of some polygons with an effort left to the controller, `particles` placed."""
+def steered(corners, particles, seed, aim=0.75, smallest=0.5, length=1.0):
+    """A packing of some polygons with an effort left to the controller, `particles` placed.
+
+    They are `length` times as long; each range of a factor from `smallest` to 1 has as many sizes.
+    """
     angle = 2.0 * np.pi * np.arange(corners) / corners
-    hull = np.column_stack([np.cos(angle), np.sin(angle)]) / 1.8
+    hull = np.column_stack([np.cos(angle), np.sin(angle)]) * [length, 1.0] / 1.8
     rng = np.random.default_rng(seed)
-    size = rng.uniform(0.5, 1.0, 200)
+    size = smallest ** rng.random(2000)
     empty = prepare(
         Polygons.of([hull]),
         np.zeros(size.size, dtype=np.int64),
@@ -34,7 +37,7 @@ def steered(corners, particles, seed, aim=0.75):
     control = make_control(aim, 0.5, np.ones(1), empty.supply, rng)
     state = empty.steered(control, rng)
     state.advance_to(particles)
-    assert state.n_placed == particles
+    assert state.n_placed == particles or state.finished
     return state
 
 
@@ -64,10 +67,15 @@ def line_of_the_front(state):
     return np.array(points), np.array(owner)
 
 
-@pytest.mark.parametrize("corners", [3, 4, 7])
-@pytest.mark.parametrize("particles", [1, 2, 5, 12, 30, 45])
-def test_the_account_is_that_of_the_polygon_below_the_front(corners, particles):
-    state = steered(corners, particles, seed=corners)
+@pytest.mark.parametrize(("corners", "length"), [(3, 1.0), (4, 1.0), (7, 1.0), (8, 5.0)])
+@pytest.mark.parametrize(
+    ("particles", "smallest"),
+    [*((n, 0.5) for n in (1, 2, 5, 12, 30, 45)), (100, 0.05), (250, 0.05), (250, 0.02)],
+)
+def test_the_account_is_that_of_the_polygon_below_the_front(corners, length, particles, smallest):
+    scale = 1.0 if length == 1.0 else 0.2
+    state = steered(corners, particles, corners, 0.75, scale * smallest, length)
+    particles = state.n_placed
     points, owner = line_of_the_front(state)
     walls = state.domain
     corners_below = [(walls.x_max, walls.y_min), (walls.x_min, walls.y_min)]
@@ -95,5 +103,5 @@ def angle_below(before, here, after):
 def test_more_effort_is_spent_where_solid_is_missing():
     loose = steered(4, 40, seed=1, aim=0.9).control.tally
     dense = steered(4, 40, seed=1, aim=0.5).control.tally
-    assert loose[4] > dense[4]  # sums of the efforts
-    assert 0.0 <= dense[4] <= loose[4] <= 40.0
+    assert loose[EFFORT_SUM] > dense[EFFORT_SUM]
+    assert 0.0 <= dense[EFFORT_SUM] <= loose[EFFORT_SUM] <= 40.0

@@ -6,7 +6,6 @@ import dataclasses
 
 import numpy as np
 import pytest
-import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -22,7 +21,6 @@ from grainfront.studies.effort import Surface, recommend
 from grainfront.studies.pilots import (
     Pilot,
     PilotScale,
-    fraction_away_from_walls,
     fraction_with_walls_of,
     seconds_in,
 )
@@ -53,24 +51,6 @@ def scene(**changes) -> Scene:
 @pytest.fixture(scope="module")
 def packed():
     return api.pack(scene(), api.build_shapes(scene()), seed=5)[0]
-
-
-@given(axis=st.sampled_from([0, 1]), margin=st.floats(0.0, 7.0))
-@settings(max_examples=30, deadline=None)
-def test_the_fraction_away_from_walls_is_that_of_the_clipped_polygons(packed, axis, margin):
-    domain = packed.domain
-    x, y = (margin, 0.0) if axis == 0 else (0.0, margin)
-    box = shapely.box(domain.x_min + x, domain.y_min + y, domain.x_max - x, domain.y_max - y)
-    clipped = shapely.area(shapely.intersection(packed.polygons.to_shapely(), box)).sum()
-    found = fraction_away_from_walls(packed, axis, margin)
-    assert found == pytest.approx(clipped / box.area, rel=1e-11)
-
-
-def test_upright_edges_on_the_lines_count_too(packing_of):
-    square = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]])
-    packing = packing_of([square, square + [4.0, 0.0]], Rectangle(0.0, 0.0, 6.0, 2.0))
-    for axis, margin, expected in ((0, 2.0, 0.0), (0, 1.0, 0.5), (1, 0.5, 2 / 3), (0, 0.0, 2 / 3)):
-        assert fraction_away_from_walls(packing, axis, margin) == pytest.approx(expected)
 
 
 def test_walls_of_the_whole_take_in_proportion_to_their_length(packing_of):

@@ -47,6 +47,7 @@ def draw_effort(figure: Figure, found: Quantities) -> None:
         functions=(lambda s: np.multiply(s, a_grain), lambda micro: np.divide(micro, a_grain)),
     )
     on_top.set_xlabel("µs a grain, about")
+    _ring_own(axes, found)
     axes.legend(loc="upper right")
 
 
@@ -62,6 +63,18 @@ def _draw_front(axes: Axes, found: Quantities) -> None:
         x, y, i = time[k], deficit[k], front[k]
         text = f"{found['n_angle'][i]} / {found['n_loc'][i]}"
         say(axes, x, y, text, offset=(-3, -3), ha="right", va="top", color=PRESCRIBED)
+
+
+def _ring_own(axes: Axes, found: Quantities) -> None:
+    """Ring the scene's own effort: half the largest of the axis."""
+    own = (2 * found["n_angle"] == found["n_angle"].max()) & (
+        2 * found["n_loc"] == found["n_loc"].max()
+    )
+    for i in np.flatnonzero(own):
+        x, y = medians(found["kernel_s"])[i], medians(found["deficit"])[i]
+        axes.plot(x, y, "o", markersize=11, fillstyle="none", color=INK)
+        text = f"{found['n_angle'][i]} / {found['n_loc'][i]}, the scene's"
+        say(axes, x, y, text, offset=(4, 8), ha="left", va="bottom", color=INK)
 
 
 def _apart(x: np.ndarray, y: np.ndarray) -> list[int]:
