@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from scipy.spatial import Voronoi
 
 from grainfront.errors import InputError
-from grainfront.particles import Rectangle
+from grainfront.particles import Rectangle, Region
 from grainfront.statistics import (
     CONTACT_TOLERANCE,
     N_BIN,
@@ -19,6 +19,7 @@ from grainfront.statistics import (
     l2_error,
     measure,
     orientation_rose,
+    reach,
     size_correlation,
     void_ratio,
     volume_fraction,
@@ -261,3 +262,40 @@ def test_an_empty_packing_is_refused(packing_of):
 def test_shares_are_of_all_values():
     compared = compare_with_law(np.array([0.1, 0.2, 5.0]), np.array([0.0, 1.0]), np.ones(1))
     assert compared.shares.tolist() == [2 / 3]
+
+
+def test_fractions_of_a_region_are_those_of_its_area(packing_of):
+    """A lattice of small squares fills a ring by a quarter, wherever the bulk is cut."""
+    hole = shapely.box(30, 30, 50, 50)
+    region = Region.of(shapely.box(0, 0, 80, 80).difference(hole))
+    squares = [
+        shifted(0.5 * UNIT_SQUARE, i + 0.5, j + 0.5)
+        for i in range(80)
+        for j in range(80)
+        if not hole.covers(shapely.Point(i + 0.5, j + 0.5))
+    ]
+    packing = packing_of(squares, region)
+    assert region.area == 6000.0
+    assert volume_fraction(packing) == pytest.approx(0.25)
+    assert volume_fraction_bulk(packing) == pytest.approx(0.25, rel=0.01)
+
+
+def test_contacts_with_the_rings_of_a_region(packing_of):
+    """Squares touch the outer ring, the ring of the hole, both or neither."""
+    frame = shapely.box(0, 0, 9, 9).difference(shapely.box(1, 3, 6, 6))
+    squares = [
+        shifted(UNIT_SQUARE, *centre) for centre in ((0.5, 4.5), (6.5, 4.5), (4, 0.5), (8, 8))
+    ]
+    contacts = find_contacts(packing_of(squares, Region.of(frame)))
+    found = list(zip(contacts.wall_particle.tolist(), contacts.wall.tolist(), strict=True))
+    assert found == [(0, 0), (0, 1), (1, 1), (2, 0)]
+
+
+def test_a_room_without_particles_is_told(packing_of):
+    """Two rooms joined by a corridor that is narrower than the particle, which is in one."""
+    rooms = [shapely.box(0, 0, 4, 4), shapely.box(10, 0, 13, 4), shapely.box(4, 1, 10, 1.5)]
+    packing = packing_of([shifted(UNIT_SQUARE, 2, 2)], Region.of(shapely.union_all(rooms)))
+    reachable, empty = reach(packing)
+    corners = 8 * (0.25 - np.pi / 16)  # of the rooms, where a disc of radius 1/2 does not fit
+    assert reachable == pytest.approx(28 - corners, rel=0.005)
+    assert empty == pytest.approx(12 - corners / 2, rel=0.005)
