@@ -185,8 +185,8 @@ def warn_of_uncovered(scene: Scene, database: ShapeDatabase) -> None:
         )
 
 
-def warn_of_empty_rooms(scene: Scene, packing: Packing) -> None:
-    """Say on standard error which rooms of a domain stayed empty: islands, or beyond necks."""
+def warn_of_empty_rooms(name: str | Path, packing: Packing) -> None:
+    """Say on standard error how many rooms of a domain stayed empty: islands, or beyond necks."""
     if not isinstance(packing.domain, Region):
         return
     from grainfront.statistics import find_rooms
@@ -196,7 +196,7 @@ def warn_of_empty_rooms(scene: Scene, packing: Packing) -> None:
         return
     largest = int(np.argmax(np.where(rooms.empty, rooms.area, 0.0)))
     print(
-        f"grainfront: warning: {scene.name}: {rooms.empty.sum()} of {rooms.empty.size} rooms of "
+        f"grainfront: warning: {name}: {rooms.empty.sum()} of {rooms.empty.size} rooms of "
         "the domain, islands or beyond necks narrower than the mean grain, stayed empty, "
         f"{100 * rooms.empty_area / packing.domain.area:.2g} % of its area, the largest of them "
         f"about ({rooms.x[largest]:.4g}, {rooms.y[largest]:.4g}).",

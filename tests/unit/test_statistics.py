@@ -16,10 +16,10 @@ from grainfront.statistics import (
     N_BIN,
     compare_with_law,
     find_contacts,
+    find_rooms,
     l2_error,
     measure,
     orientation_rose,
-    reach,
     size_correlation,
     void_ratio,
     volume_fraction,
@@ -295,7 +295,7 @@ def test_a_room_without_particles_is_told(packing_of):
     """Two rooms joined by a corridor that is narrower than the particle, which is in one."""
     rooms = [shapely.box(0, 0, 4, 4), shapely.box(10, 0, 13, 4), shapely.box(4, 1, 10, 1.5)]
     packing = packing_of([shifted(UNIT_SQUARE, 2, 2)], Region.of(shapely.union_all(rooms)))
-    reachable, empty = reach(packing)
+    found = find_rooms(packing)
     corners = 8 * (0.25 - np.pi / 16)  # of the rooms, where a disc of radius 1/2 does not fit
-    assert reachable == pytest.approx(28 - corners, rel=0.005)
-    assert empty == pytest.approx(12 - corners / 2, rel=0.005)
+    assert found.area.sum() == pytest.approx(28 - corners, rel=0.005)
+    assert found.empty_area == pytest.approx(12 - corners / 2, rel=0.005)

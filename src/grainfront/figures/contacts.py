@@ -23,7 +23,8 @@ from grainfront.figures.style import (
     panel_letter,
     styled,
 )
-from grainfront.particles import Packing
+from grainfront.figures.walls import draw_walls
+from grainfront.particles import Cell, Packing
 
 if TYPE_CHECKING:
     from grainfront.statistics import Contacts
@@ -76,9 +77,14 @@ def _draw_network(axes: Axes, packing: Packing, contacts: Contacts, length_unit:
     centres = np.stack([packing.x, packing.y], axis=1)
     first, second = centres[contacts.pairs[seen].T]
     points = contacts.position[seen]
+    if isinstance(packing.domain, Cell):
+        # the second particle may be an image: the one that is there
+        period = np.array([packing.domain.width, packing.domain.height])
+        second = second + period * np.rint((points - second) / period)
     branches = np.stack([first, points, second], axis=1)
     axes.add_collection(
         LineCollection(list(branches), colors=BRANCH, linewidths=0.6), autolim=False
     )
     axes.scatter(points[:, 0], points[:, 1], s=4, color=PRESCRIBED, linewidths=0, zorder=3)
+    draw_walls(axes, packing.domain, window)
     map_axes(axes, window, length_unit)

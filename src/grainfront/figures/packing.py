@@ -22,6 +22,7 @@ from grainfront.figures.style import (
     panel_letter,
     styled,
 )
+from grainfront.figures.walls import draw_walls, middle_of, window_of
 from grainfront.particles import Packing, Rectangle
 
 GRAINS_ACROSS_ZOOM = 8
@@ -38,13 +39,15 @@ def packing(
     round them. `volume_fractions` are those of the hulls and, where there are any, the outlines.
     """
     shown = outlines or hulls
-    figure = Figure(figsize=(WIDTH, _height(shown.domain)))
+    everything = window_of(shown)
+    figure = Figure(figsize=(WIDTH, _height(everything)))
     whole, zoom = figure.subplots(1, 2, width_ratios=(1, 1))
     colours = Normalize(*_colour_limits(shown.size))
     window = zoom_window(shown)
 
     artist = _draw(whole, shown, colours, edge=0.0)
-    map_axes(whole, shown.domain, length_unit)
+    draw_walls(whole, shown.domain, everything)
+    map_axes(whole, everything, length_unit)
     whole.add_patch(_outline_of(window, linewidth=0.9))
     panel_letter(whole, "a", f"{shown.x.size:,} particles, $\\phi$ = {volume_fractions[-1]:.4f}")
 
@@ -52,6 +55,7 @@ def packing(
     if outlines is not None:
         _draw_hulls(zoom, hulls, inside)
     _draw(zoom, shown, colours, edge=0.3, chosen=inside)
+    draw_walls(zoom, shown.domain, everything)
     map_axes(zoom, window, length_unit)
     zoom.spines[:].set_color(WINDOW)
     hulls_behind = f"outlines in their hulls (hulls: $\\phi$ = {volume_fractions[0]:.4f})"
@@ -65,15 +69,14 @@ def packing(
 
 
 def zoom_window(packing: Packing) -> Rectangle:
-    """A square in the middle of the domain, a few grains across, never larger than the domain."""
+    """A square about the middle of the domain, a few grains across, no larger than the domain."""
     domain = packing.domain
     edge = min(
         GRAINS_ACROSS_ZOOM * 2 * float(np.mean(packing.circumradius)) if packing.x.size else np.inf,
         domain.width,
         domain.height,
     )
-    x = domain.x_min + (domain.width - edge) / 2
-    y = domain.y_min + (domain.height - edge) / 2
+    x, y = (middle - edge / 2 for middle in middle_of(domain))
     return Rectangle(x, y, x + edge, y + edge)
 
 

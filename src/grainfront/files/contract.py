@@ -194,7 +194,10 @@ CONTACTS = Contract(
             ("contact",),
             type="int64",
             particle_a=("1", "index of the first particle, the smaller one"),
-            particle_b=("1", "index of the second particle"),
+            particle_b=(
+                "1",
+                "index of the second particle, which may touch by an image",
+            ),
         ),
         **_of(
             ("contact",),

@@ -34,7 +34,6 @@ def packing(*, scene: str, database: str, seed: int, packing: str, timing: str) 
     loaded = api.load_scene(scene)
     with api.progress_bar() as progress:
         packed, run_time = api.pack(loaded, read_shapes(database), seed, progress)
-    api.warn_of_empty_rooms(loaded, packed)
     api.write_packing(packing, packed, loaded, seed)
     times = {"kernel_s": run_time.kernel_s, "compile_s": run_time.compile_s}
     write_text(timing, json.dumps(times) + "\n")

@@ -72,8 +72,9 @@ def find_rooms(packing: Packing) -> Rooms:
     """The rooms of the domain: islands, and what lies beyond necks where no such disc fits."""
     domain = packing.domain
     if not isinstance(domain, Region):
-        middle = 0.5 * np.array([[domain.x_min + domain.x_max], [domain.y_min + domain.y_max]])
-        return Rooms(np.array([domain.area]), *middle, np.zeros(1, dtype=np.bool_))
+        x, y = 0.5 * (domain.x_min + domain.x_max), 0.5 * (domain.y_min + domain.y_max)
+        whole = map(np.array, ([domain.area], [x], [y], [False]))
+        return Rooms(*whole)
     radius = 0.5 * float(packing.size.mean())
     rooms = shapely.get_parts(shapely.buffer(domain.to_shapely(), -radius))
     centres = shapely.points(packing.x, packing.y)

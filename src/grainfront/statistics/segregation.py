@@ -39,9 +39,10 @@ def size_correlation(packing: Packing) -> SizeCorrelation:
         ((x, y),) = shapely.get_coordinates(shapely.centroid(domain.to_shapely())).tolist()
     to_centre = np.hypot(packing.x - x, packing.y - y)
     repeats = isinstance(domain, Cell)
+    repeats_along_y = isinstance(domain, Cell) and domain.along_y
     return SizeCorrelation(
         x=np.nan if repeats else _pearson(packing.size, packing.x),
-        y=np.nan if repeats and domain.along_y else _pearson(packing.size, packing.y),
+        y=np.nan if repeats_along_y else _pearson(packing.size, packing.y),
         centre=np.nan if repeats else _pearson(packing.size, to_centre),
         noise_level=float(1.0 / np.sqrt(packing.size.size)),
     )

@@ -21,7 +21,7 @@ from grainfront.packing.region import outside_pieces
 from grainfront.packing.steering import Steering
 from grainfront.particles import Rectangle, Region
 from grainfront.polygons import Polygons
-from grainfront.statistics import find_contacts, reach, volume_fraction_bulk
+from grainfront.statistics import find_contacts, find_rooms, volume_fraction_bulk
 
 COMPILED = os.environ.get("NUMBA_DISABLE_JIT") != "1"
 
@@ -128,7 +128,7 @@ def test_no_part_of_a_domain_stays_empty(name):
     """Nowhere in the domain is there room for a circle of two particles across."""
     region = Region.of(DOMAINS[name](14.0))
     packing = pack("rectangles", region, 2, 2)
-    assert reach(packing)[1] == 0.0
+    assert find_rooms(packing).empty_area == 0.0
     void = region.to_shapely().difference(shapely.union_all(packing.polygons.to_shapely()))
     assert void.buffer(-1.1).is_empty
 
