@@ -174,7 +174,7 @@ def prepare(
     if isinstance(domain, Region):
         from grainfront.packing.region import add_obstacles
 
-        placed, obstacles = add_obstacles(placed, domain, fixed, float(np.median(circumradius)))
+        placed, obstacles = add_obstacles(placed, domain, fixed, circumradius, float(largest))
         walls = walls._replace(obstacles=obstacles)
     return State(
         front=make_front(n),

@@ -48,11 +48,15 @@ def discs_of(pieces: Polygons) -> np.ndarray:
 
 
 def add_obstacles(
-    placed: Placed, region: Region, fixed: Polygons | None, circumradius: float
+    placed: Placed,
+    region: Region,
+    fixed: Polygons | None,
+    circumradius: np.ndarray,
+    largest: float,
 ) -> tuple[Placed, Obstacles]:
-    """Store the pieces outside the region behind the particles; `circumradius` is that of these.
+    """Store the pieces outside the region behind the particles.
 
-    `fixed` are convex particles to be packed around, which may leave but hollows: each of them may
+    `circumradius` (n,) is that of the particles, none of which will exceed `largest`. `fixed` are convex particles to be packed around, which may leave but hollows: each of them may
     get a front of its own.
     """
     pieces = outside_pieces(region)
@@ -64,32 +68,52 @@ def add_obstacles(
         offsets=np.concatenate([placed.offsets, len(placed.nodes) + pieces.offsets]),
         disc=np.concatenate([placed.disc, np.zeros((1, 4)), discs_of(pieces)]),
     )
-    return longer, make_obstacles(region, fixed, pieces, first, circumradius)
+    return longer, make_obstacles(region, fixed, pieces, first, circumradius, largest)
 
 
 def make_obstacles(
-    region: Region, fixed: Polygons | None, pieces: Polygons, first: int, circumradius: float
+    region: Region,
+    fixed: Polygons | None,
+    pieces: Polygons,
+    first: int,
+    circumradius: np.ndarray,
+    largest: float,
 ) -> Obstacles:
-    """The cells of the pieces; `first` is their first index, `circumradius` that of particles."""
-    cell = max(2.0 * circumradius, math.sqrt(region.width * region.height / MOST_CELLS))
+    """The cells of the pieces, of which `first` is the first index; see `add_obstacles`."""
+    median = float(np.median(circumradius))
+    cell = max(2.0 * median, math.sqrt(region.width * region.height / MOST_CELLS))
     columns, rows = math.floor(region.width / cell) + 1, math.floor(region.height / cell) + 1
     row, column = np.divmod(np.arange(columns * rows), columns)
     x, y = region.x_min + column * cell, region.y_min + row * cell
     margin = CELL_MARGIN * cell
     cells = shapely.box(x - margin, y - margin, x + cell + margin, y + cell + margin)
-    owner, item = shapely.STRtree(pieces.to_shapely()).query(cells, predicate="intersects")
-    order = np.lexsort((item, owner))
-    bounds = shapely.bounds(pieces.to_shapely())
+    shapes = pieces.to_shapely()
+    tree = shapely.STRtree(shapes)
+    owner, item = tree.query(cells, predicate="intersects")
+    start, item = _lists(owner, item, columns * rows)
+    reach = (2.0 + CELL_MARGIN) * largest
+    one, other = tree.query(shapes, predicate="dwithin", distance=reach)
+    beside_start, beside = _lists(one[one != other], other[one != other], pieces.count)
     return Obstacles(
         first=first,
         empty_about=EMPTY_ABOUT if fixed is None else 0.0,
-        box=np.ascontiguousarray(bounds),
+        box=np.ascontiguousarray(shapely.bounds(shapes)),
         cell=float(cell),
         columns=columns,
         rows=rows,
-        start=np.searchsorted(owner[order], np.arange(columns * rows + 1)).astype(np.int64),
-        item=item[order].astype(np.int64),
+        start=start,
+        item=item,
+        beside_start=beside_start,
+        beside=beside,
+        rejected=np.zeros(circumradius.size, dtype=np.bool_),
         met=np.zeros(pieces.count, dtype=np.int64),
         search=np.zeros(1, dtype=np.int64),
         splits=np.zeros(first, dtype=np.bool_),
     )
+
+
+def _lists(owner: np.ndarray, item: np.ndarray, owners: int) -> tuple[np.ndarray, np.ndarray]:
+    """Where the list of each owner begins, (owners + 1,), and the items of all lists, sorted."""
+    order = np.lexsort((item, owner))
+    start = np.searchsorted(owner[order], np.arange(owners + 1))
+    return start.astype(np.int64), item[order].astype(np.int64)

@@ -30,13 +30,15 @@ from grainfront.packing.trials import NOTHING, RESOLVED, contact_of_pair, overla
 
 
 @inlined
-def boxes_within(box, o, p, distance):
-    """Whether two bounding boxes are at most `distance` apart along both axes."""
+def may_touch_both(box, o, p, circumradius, ceiling):
+    """Whether a particle whose centre is below a ceiling may touch both obstacles."""
+    diameter = 2.0 * circumradius
     return (
-        box[o, 0] <= box[p, 2] + distance
-        and box[p, 0] <= box[o, 2] + distance
-        and box[o, 1] <= box[p, 3] + distance
-        and box[p, 1] <= box[o, 3] + distance
+        box[o, 0] <= box[p, 2] + diameter
+        and box[p, 0] <= box[o, 2] + diameter
+        and box[o, 1] <= box[p, 3] + diameter
+        and box[p, 1] <= box[o, 3] + diameter
+        and max(box[o, 1], box[p, 1]) - circumradius < ceiling
     )
 
 
@@ -64,8 +66,9 @@ def lowest_start(
     count, circumradius, inradius = particle
     best = False, 0.0, ceiling, 0
     for o in range(obstacles.box.shape[0]):
-        for p in range(obstacles.box.shape[0]):
-            if o == p or not boxes_within(obstacles.box, o, p, 2.0 * circumradius):
+        for n in range(obstacles.beside_start[o], obstacles.beside_start[o + 1]):
+            p = obstacles.beside[n]
+            if not may_touch_both(obstacles.box, o, p, circumradius, best[2]):
                 continue
             for angle in range(n_angle):
                 trial = Trial(angle * count, count, angle, circumradius, inradius)
@@ -114,6 +117,9 @@ def start_of_law(
             if draw_next(queues, counters, law, supply, narrowest):
                 continue
         source = queues.waiting[law, turn]
+        if obstacles.rejected[source]:
+            turn += 1
+            continue
         draw_orientations(laws, law, trials, n_angle, queues.n_placed[law], supply.uniform[source])
         particle = turn_and_inflate(supply, source, domain.clearance, trials, n_angle)
         found, x, y, angle = lowest_start(
@@ -122,6 +128,8 @@ def start_of_law(
         )  # fmt: skip
         if found:
             return turn, x, y, angle
+        # the domain fills up, so that what found no place will find none later
+        obstacles.rejected[source] = ceiling == math.inf
         turn += 1
     return -1, 0.0, ceiling, 0
 

@@ -36,6 +36,9 @@ class Obstacles(NamedTuple):
     rows: int
     start: np.ndarray  # (columns × rows + 1,) where the list of each cell begins, row by row
     item: np.ndarray  # (n_items,) index from 0 on
+    beside_start: np.ndarray  # (n_obstacles + 1,) where the list of each obstacle begins
+    beside: np.ndarray  # (n_beside,) others that a particle may touch together with it
+    rejected: np.ndarray  # (n,) whether a particle of the supply found no place to begin a front
     met: np.ndarray  # (n_obstacles,) number of the search that came by last
     search: np.ndarray  # (1,) number of the current search
     splits: np.ndarray  # (n,) whether a piece lies between a particle of the front and the next one
