@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from scipy.spatial import Voronoi
 
 from grainfront.errors import InputError
-from grainfront.particles import Rectangle, Region
+from grainfront.particles import Cell, Rectangle, Region
 from grainfront.statistics import (
     CONTACT_TOLERANCE,
     N_BIN,
@@ -278,6 +278,22 @@ def test_fractions_of_a_region_are_those_of_its_area(packing_of):
     assert region.area == 6000.0
     assert volume_fraction(packing) == pytest.approx(0.25)
     assert volume_fraction_bulk(packing) == pytest.approx(0.25, rel=0.01)
+
+
+def test_slices_of_a_region_and_of_a_cell(packing_of):
+    """Between lines, particles and domain count with what lies there; cells begin again."""
+    ring = shapely.box(0, 0, 6, 6).difference(shapely.box(2, 2, 4, 4))
+    packing = packing_of([shifted(UNIT_SQUARE, 1, 3)], Region.of(ring))
+    assert volume_fraction_between(packing, 0, 1.0, 3.0) == pytest.approx(0.5 / 10)
+    assert volume_fraction_between(packing, 1, 2.5, 3.5) == pytest.approx(1.0 / 4)
+    for along_y in (False, True):
+        packing = packing_of(
+            [shifted(UNIT_SQUARE, 0, 4)], Cell(0.0, 0.0, 6.0, 4.25, along_y), y=np.array([4.0])
+        )
+        assert volume_fraction_between(packing, 0, 5.0, 6.0) == pytest.approx(0.5 / 4.25)
+        assert volume_fraction_between(packing, 0, 0.0, 1.0) == pytest.approx(0.5 / 4.25)
+        above = 0.25 / 6 if along_y else 0.0
+        assert volume_fraction_between(packing, 1, 0.0, 1.0) == pytest.approx(above)
 
 
 def test_contacts_with_the_rings_of_a_region(packing_of):

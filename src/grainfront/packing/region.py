@@ -56,8 +56,9 @@ def add_obstacles(
 ) -> tuple[Placed, Obstacles]:
     """Store the pieces outside the region behind the particles.
 
-    `circumradius` (n,) is that of the particles, none of which will exceed `largest`. `fixed` are convex particles to be packed around, which may leave but hollows: each of them may
-    get a front of its own.
+    `circumradius` (n,) is that of the particles, none of which will exceed `largest`. `fixed` are
+    convex particles to be packed around, which may leave but hollows: each of them may get a front
+    of its own.
     """
     pieces = outside_pieces(region)
     if fixed is not None:

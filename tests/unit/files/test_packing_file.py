@@ -19,7 +19,7 @@ from hypothesis.extra.numpy import arrays
 
 from grainfront.errors import InputError
 from grainfront.files.netcdf import read_attributes, read_packing, write_packing
-from grainfront.particles import Packing, Rectangle, Region
+from grainfront.particles import Cell, Packing, Rectangle, Region
 from grainfront.polygons import Polygons
 
 sys.path.insert(0, str(Path(__file__).parent))
@@ -91,6 +91,35 @@ def test_a_region_comes_back_bit_for_bit(tmp_path):
     np.testing.assert_array_equal(read.rings.offsets, region.rings.offsets)
     np.testing.assert_array_equal(read.parts, region.parts)
     assert (read.x_min, read.y_max, read.area) == (-0.1, 3.0, region.area)
+
+
+@pytest.mark.parametrize("along_y", [False, True])
+def test_a_cell_comes_back_bit_for_bit(tmp_path, along_y):
+    packing = synthetic.packing(3, 2, np.random.default_rng(1))
+    packing = replace(packing, domain=Cell(-0.1, 1e-9, 1 / 3, 2.0, along_y))
+    write(tmp_path / "packing.nc", packing)
+    assert_same(packing, read_packing(tmp_path / "packing.nc"))
+
+
+@pytest.mark.parametrize(
+    ("attribute", "value", "says"),
+    [
+        ("periodic", "y", "periodic is 'y', but must be 'x' or 'x y'"),
+        ("domain", "POINT (1 2)", "the domain is POINT .1 2., but must be a polygon"),
+        ("domain", "MULTIPOLYGON (((0 0, 2 2, 2 0, 0 2, 0 0)))", "no valid polygon"),
+        ("domain", "MULTIPOLYGON (((0 0, 2 0, 2 2, 0 0)))", "periodic is 'x'"),
+        ("domain", "POLY", "no WKT polygon"),
+    ],
+)
+def test_a_damaged_domain_is_told(tmp_path, attribute, value, says):
+    path = tmp_path / "packing.nc"
+    packing = synthetic.packing(3, 2, np.random.default_rng(1))
+    write(path, replace(packing, domain=Cell(0.0, 0.0, 3.0, 2.0, False)))
+    with netCDF4.Dataset(path, "a") as dataset:
+        dataset.setncattr(attribute, value)
+    with pytest.raises(InputError, match=says) as error:
+        read_packing(path)
+    assert str(path) in str(error.value)
 
 
 def test_equal_input_gives_equal_bytes_in_any_process(tmp_path):
