@@ -22,11 +22,14 @@ from grainfront.figures.style import (
     panel_letter,
     styled,
 )
-from grainfront.figures.walls import draw_walls, middle_of, window_of
-from grainfront.particles import Packing, Rectangle
+from grainfront.figures.walls import draw_walls, middle_of, window_of, with_images
+from grainfront.particles import Cell, Packing, Rectangle
 
 GRAINS_ACROSS_ZOOM = 8
 """Edge of the zoom in mean circumscribed diameters: few enough to see every outline."""
+
+PALE = 0.45
+"""Opacity of the images of particles."""
 
 
 @styled
@@ -51,6 +54,7 @@ def packing(
     whole.add_patch(_outline_of(window, linewidth=0.9))
     panel_letter(whole, "a", f"{shown.x.size:,} particles, $\\phi$ = {volume_fractions[-1]:.4f}")
 
+    _draw_images(zoom, shown, colours, window)
     inside = inside_window(shown, window)
     if outlines is not None:
         _draw_hulls(zoom, hulls, inside)
@@ -59,7 +63,8 @@ def packing(
     map_axes(zoom, window, length_unit)
     zoom.spines[:].set_color(WINDOW)
     hulls_behind = f"outlines in their hulls (hulls: $\\phi$ = {volume_fractions[0]:.4f})"
-    panel_letter(zoom, "b", "closer" if outlines is None else hulls_behind)
+    closer = "closer, images paler" if isinstance(shown.domain, Cell) else "closer"
+    panel_letter(zoom, "b", closer if outlines is None else hulls_behind)
 
     bar = figure.colorbar(artist, ax=[whole, zoom], location="bottom", aspect=60, shrink=0.6,
                           pad=0.02, extend="both" if np.ptp(shown.size) else "neither")  # fmt: skip
@@ -122,6 +127,15 @@ def _draw(
     )
     axes.add_collection(artist, autolim=False)
     return artist
+
+
+def _draw_images(axes: Axes, packing: Packing, colours: Normalize, window: Rectangle) -> None:
+    """Draw, paler, the images of the particles of a cell that repeats itself."""
+    if isinstance(packing.domain, Cell):
+        whole = with_images(packing)
+        seen = inside_window(whole, window)
+        images = _draw(axes, whole, colours, edge=0.3, chosen=seen[seen >= packing.x.size])
+        images.set_alpha(PALE)
 
 
 def _draw_hulls(axes: Axes, hulls: Packing, chosen: np.ndarray) -> None:

@@ -10,7 +10,7 @@ from matplotlib.patches import Rectangle as RectanglePatch
 from matplotlib.path import Path
 
 from grainfront.figures.style import INK, OUTSIDE
-from grainfront.particles import Cell, Packing, Rectangle, Region
+from grainfront.particles import Cell, Packing, Rectangle, Region, tiled
 
 # Share of the longer side that is shown beyond the bounding rectangle of a domain of any shape.
 MARGIN = 0.01
@@ -35,12 +35,24 @@ def window_of(packing: Packing) -> Rectangle:
 
 
 def middle_of(domain: Rectangle) -> tuple[float, float]:
-    """The middle of a rectangle; of a domain of any shape, the point farthest from its walls."""
+    """Where a closer look is of interest: the middle of a rectangle.
+
+    Of a domain of any shape, it is the point farthest from its walls; of a cell that repeats
+    itself, the corner or side where it meets itself.
+    """
     if isinstance(domain, Region):
         circle = shapely.maximum_inscribed_circle(domain.to_shapely())
         x, y = shapely.get_coordinates(circle)[0].tolist()
         return x, y
-    return domain.x_min + domain.width / 2, domain.y_min + domain.height / 2
+    x, y = domain.x_min + domain.width / 2, domain.y_min + domain.height / 2
+    if isinstance(domain, Cell):
+        return domain.x_min, domain.y_min if domain.along_y else y
+    return x, y
+
+
+def with_images(packing: Packing) -> Packing:
+    """The packing and, around a cell that repeats itself, the images of its particles."""
+    return tiled(packing) if isinstance(packing.domain, Cell) else packing
 
 
 def draw_walls(axes: Axes, domain: Rectangle, window: Rectangle) -> None:
