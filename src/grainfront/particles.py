@@ -188,18 +188,19 @@ class Packing:
 
     def chosen(self, index: np.ndarray) -> Packing:
         """The packing with some of its particles alone."""
-        polygons = Polygons.of(self.polygons.polygon(i) for i in index.tolist())
         return replace(
-            self, polygons=polygons, **{name: getattr(self, name)[index] for name in _FIELDS}
+            self,
+            polygons=self.polygons.chosen(index),
+            region=None if self.region is None else self.region[index],
+            **{name: getattr(self, name)[index] for name in _FIELDS},
         )
 
     def joined(self, other: Packing, domain: Rectangle) -> Packing:
         """The particles of two packings in one domain."""
-        both = (self.polygons, other.polygons)
         return replace(
             self,
             domain=domain,
-            polygons=Polygons.of(p.polygon(i) for p in both for i in range(p.count)),
+            polygons=self.polygons.joined(other.polygons),
             left_over=self.left_over + other.left_over,
             **{n: np.concatenate([getattr(self, n), getattr(other, n)]) for n in _FIELDS},
         )

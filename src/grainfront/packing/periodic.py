@@ -99,7 +99,8 @@ def _cut(packed: Packing, cell: Cell, offset: np.ndarray) -> Packing:
     inside = (packed.x - offset[0] >= cell.x_min) & (packed.x - offset[0] < cell.x_max)
     inside &= (packed.y - offset[1] >= cell.y_min) & (packed.y - offset[1] < cell.y_max)
     part = packed.chosen(np.flatnonzero(inside)).moved(-offset)
-    shapes = part.polygons.to_shapely()
+    near = _near_border(part, cell)
+    shapes = part.polygons.chosen(near).to_shapely()
     # of particles closer than this, rounding might make their images overlap
     apart = CLEARANCE_ULPS * float(np.spacing(1.0)) * float(np.abs(part.polygons.nodes).max())
     clashes = []
@@ -107,10 +108,19 @@ def _cut(packed: Packing, cell: Cell, offset: np.ndarray) -> Packing:
         tree = shapely.STRtree(shapely.transform(shapes, lambda nodes, by=shift: nodes + by))
         clashes.append(tree.query(shapes, predicate="dwithin", distance=apart).T)
     kept = np.ones(part.x.size, dtype=np.bool_)
-    for pair in np.unique(np.sort(np.concatenate(clashes), axis=1), axis=0):
+    for pair in np.unique(np.sort(near[np.concatenate(clashes)], axis=1), axis=0):
         if kept[pair].all():
             kept[pair[np.argmin(part.area[pair])]] = False
     return part.chosen(np.flatnonzero(kept))
+
+
+def _near_border(part: Packing, cell: Cell) -> np.ndarray:
+    """Particles that may reach those of another cell."""
+    reach = 2.0 * float(part.circumradius.max(initial=0.0))
+    near = np.minimum(part.x - cell.x_min, cell.x_max - part.x) <= reach
+    if cell.along_y:
+        near |= np.minimum(part.y - cell.y_min, cell.y_max - part.y) <= reach
+    return np.flatnonzero(near)
 
 
 def _seam(cell: Cell, half_width: float) -> Region:
