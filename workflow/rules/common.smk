@@ -62,10 +62,9 @@ def has_zones(scene):
     return any(region.inside for region in regions)
 
 
-def arrangement_files(wildcards):
-    """The images and files that the zones of a scene come from."""
-    arrangement = SCENES[wildcards.scene].arrangement
-    return sorted(arrangement.files) if arrangement else []
+def zone_files(wildcards):
+    """The images and files that the domain and the regions of a scene come from."""
+    return SCENES[wildcards.scene].zone_files
 
 
 def results_of(scene):
