@@ -7,20 +7,22 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
-from grainfront.arrangement.regions import Arrangement, LocalLaws
 from grainfront.checked_yaml import parse_checked, read_text
 from grainfront.errors import InputError
 from grainfront.image_files import SHIPPED
 from grainfront.laws import Law
 from grainfront.particles import Rectangle
-from grainfront.scene_arrangement import Find, arrangement_of
 from grainfront.scene_domain import domain_of, require_room
 from grainfront.scene_laws import LAWS as LAWS
 from grainfront.scene_laws import law_of, matched_of
 from grainfront.shapes import sources
 from grainfront.shapes.sources import ShapeSource
+
+if TYPE_CHECKING:
+    from grainfront.arrangement.regions import Arrangement
+    from grainfront.scene_arrangement import Find
 
 T = TypeVar("T")
 
@@ -156,7 +158,7 @@ def _scene(path: Path, text: str, data: dict[str, Any]) -> Scene:
         error_vs_time=_part(ErrorVsTime, "error_vs_time", data),
         replacement=data["replacement"],
         outputs=tuple(data["outputs"]),
-        arrangement=_arrangement(data, LocalLaws(size, matched, orientation), find),
+        arrangement=_arrangement(data, size, matched, orientation, find),
         domain_files=domain_files,
     )
 
@@ -185,10 +187,15 @@ def _matched(data: dict[str, Any]) -> tuple[str, Law] | None:
     return (name, law_of(name, data[name], name)) if name else None
 
 
-def _arrangement(data: dict[str, Any], scene_laws: LocalLaws, find: Find) -> Arrangement | None:
+def _arrangement(
+    data: dict[str, Any], size: Law, matched: tuple[str, Law] | None, orientation: Law, find: Find
+) -> Arrangement | None:
     if "arrangement" not in data:
         return None
-    return arrangement_of(data["arrangement"], scene_laws, find)
+    from grainfront.arrangement.regions import LocalLaws
+    from grainfront.scene_arrangement import arrangement_of
+
+    return arrangement_of(data["arrangement"], LocalLaws(size, matched, orientation), find)
 
 
 def _target(data: dict[str, Any]) -> Target | None:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from grainfront.arrangement.zones import files_of
 from grainfront.errors import InputError
 from grainfront.laws import Law
 from grainfront.particles import Cell, Rectangle, Region
-from grainfront.scene_arrangement import Find, zone_of
+
+if TYPE_CHECKING:
+    from grainfront.scene_arrangement import Find
 
 # No particle of size 1 has a smaller inscribed circle than an equilateral triangle: of this radius.
 LEAST_INRADIUS = 1.0 / 3.0
@@ -74,6 +75,8 @@ def _rectangle(data: dict[str, Any]) -> Rectangle:
 
 def _inside(data: dict[str, Any], find: Find) -> tuple[Region, set[str]]:
     from grainfront.arrangement.resolve import resolve_bounded
+    from grainfront.arrangement.zones import files_of
+    from grainfront.scene_arrangement import zone_of
 
     given = [key for key in ("width", "height") if key in data]
     if given:

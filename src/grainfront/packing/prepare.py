@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -26,7 +26,6 @@ from grainfront.packing.grid import make_grid
 from grainfront.packing.memory import Memory, make_memory
 from grainfront.packing.orientations import orientation_laws
 from grainfront.packing.scout import SCOUT_CORNERS
-from grainfront.packing.size_keeper import SizeKeeper
 from grainfront.packing.state import (
     CLEARANCE_ULPS,
     TOLERANCE_OF_CLEARANCE,
@@ -42,6 +41,9 @@ from grainfront.packing.state import (
 )
 from grainfront.particles import Packing, Rectangle, Region
 from grainfront.polygons import Polygons
+
+if TYPE_CHECKING:
+    from grainfront.packing.size_keeper import SizeKeeper
 
 
 class State(NamedTuple):
