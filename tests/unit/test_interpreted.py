@@ -8,19 +8,29 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import shapely
 
 from grainfront.packing.orientations import orientation_law
 from grainfront.packing.pack import fill
 from grainfront.packing.prepare import prepare
-from grainfront.particles import Rectangle
+from grainfront.particles import Packing, Rectangle, Region
 from grainfront.polygons import Polygons
 
 TESTS = Path(__file__).parent
 WITHOUT_JIT = {**os.environ, "NUMBA_DISABLE_JIT": "1"}
 
 
-def digest_of_a_packing() -> str:
-    """Pack some forty pentagons and digest where they are."""
+NOTCHED = Region.of(shapely.Polygon([(0, 0), (3, 1), (5, 0), (5, 5), (0, 5)]))
+DOMAINS = (Rectangle(0.0, 0.0, 6.0, 6.0), NOTCHED)
+
+
+def digest_of_packings() -> str:
+    """Pack some forty pentagons into a rectangle, some twenty into another domain: their digest."""
+    nodes = [packing_in(domain).polygons.nodes.tobytes() for domain in DOMAINS]
+    return hashlib.sha256(b"".join(nodes)).hexdigest()
+
+
+def packing_in(domain: Rectangle) -> Packing:
     angle = np.arange(5) * 0.4 * np.pi + 0.1
     rng = np.random.default_rng(5)
     empty = prepare(
@@ -28,27 +38,27 @@ def digest_of_a_packing() -> str:
         np.zeros(150, dtype=np.int64),
         rng.uniform(0.5, 1.0, 150),
         [orientation_law(np.full(12, 1 / 12), np.linspace(0.0, 180.0, 3073))],
-        Rectangle(0.0, 0.0, 6.0, 6.0),
+        domain,
         6,
         4,
         rng,
     )
     packing, _ = fill(empty, np.ones(1))
-    assert packing.x.size > 30
-    return hashlib.sha256(packing.polygons.nodes.tobytes()).hexdigest()
+    assert packing.x.size > 20
+    return packing
 
 
 if __name__ == "__main__":
-    print(digest_of_a_packing())
+    print(digest_of_packings())
 
 
 @pytest.mark.skipif("NUMBA_DISABLE_JIT" in os.environ, reason="the kernels are not compiled")
 class TestWithoutJit:
-    def test_a_packing_is_the_same(self):
+    def test_packings_are_the_same(self):
         interpreted = subprocess.run(
             [sys.executable, __file__], env=WITHOUT_JIT, capture_output=True, text=True, check=True
         )
-        assert interpreted.stdout.strip() == digest_of_a_packing()
+        assert interpreted.stdout.strip() == digest_of_packings()
 
     @pytest.mark.parametrize("folder", ["geometry", "packing", "arrangement"])
     def test_the_tests_of_the_kernels_pass(self, folder):

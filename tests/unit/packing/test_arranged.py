@@ -59,6 +59,7 @@ def zones(draw):
     return draw(st.sampled_from([disc, box, side, bars, turned, Union((disc, turned))]))
 
 
+@pytest.mark.compiled
 @settings(max_examples=25, deadline=None)
 @given(zones(), zones(), st.integers(0, 1000))
 def test_every_centre_lies_in_the_region_it_was_drawn_for(first, second, seed):
@@ -105,6 +106,7 @@ STAR = Polygon(
 )
 
 
+@pytest.mark.compiled
 @pytest.mark.parametrize("laws", [{"size": FINE}, {"orientation": Uniform(0.0, 90.0)}])
 @pytest.mark.parametrize("seed", [1, 2])
 def test_the_pruned_search_hardly_ever_misses_what_exhaustive_search_chooses(laws, seed):

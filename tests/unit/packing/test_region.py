@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-
 import numpy as np
 import pytest
 import shapely
@@ -22,8 +20,6 @@ from grainfront.packing.steering import Steering
 from grainfront.particles import Rectangle, Region
 from grainfront.polygons import Polygons
 from grainfront.statistics import find_contacts, find_rooms, volume_fraction_bulk
-
-COMPILED = os.environ.get("NUMBA_DISABLE_JIT") != "1"
 
 
 def l_shape(side):
@@ -100,7 +96,8 @@ def test_the_choice_is_that_of_exhaustive_search(family, name):
 coordinates = st.tuples(st.integers(0, 12), st.integers(0, 12))
 
 
-@settings(max_examples=40 if COMPILED else 5, deadline=None)
+@pytest.mark.compiled
+@settings(max_examples=40, deadline=None)
 @given(
     st.lists(coordinates, min_size=3, max_size=9, unique=True),
     st.lists(coordinates, min_size=3, max_size=4, unique=True),
@@ -123,6 +120,7 @@ def test_every_particle_is_inside_exactly(outer, hole, family, effort, shift, se
         assert shapely.area(outside).max() <= 1e-9 * max(1.0, abs(shift))
 
 
+@pytest.mark.compiled
 @pytest.mark.parametrize("name", DOMAINS)
 def test_no_part_of_a_domain_stays_empty(name):
     """Nowhere in the domain is there room for a circle of two particles across."""
@@ -133,6 +131,7 @@ def test_no_part_of_a_domain_stays_empty(name):
     assert void.buffer(-1.1).is_empty
 
 
+@pytest.mark.compiled
 def test_both_legs_below_a_beam_are_filled():
     """A front that begins in one leg reaches the other from above."""
     legs = box(0, 6, 12, 12).union(box(0, 0, 3, 6)).union(box(9, 1, 12, 6))
@@ -165,6 +164,7 @@ def test_a_rectangle_given_as_polygon_is_filled_as_the_rectangle(effort):
     assert contacts[1] == pytest.approx(contacts[0], rel=0.15)
 
 
+@pytest.mark.compiled
 def test_inclusions_are_packed_around():
     """A star, whose notches are filled too, and a square beside it."""
     angle = np.arange(10) * np.pi / 5
