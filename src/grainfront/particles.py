@@ -112,6 +112,8 @@ class Region(Rectangle):
                     "it, but must lie in the domain and beside the others."
                 )
             rest = shapely.difference(rest, hole)
+        if rest.is_empty:
+            raise InputError("The inclusions cover the domain, but must leave some of it.")
         return Region.of(rest)
 
     def to_shapely(self) -> Any:

@@ -183,6 +183,8 @@ def _empty_arranged(
     from grainfront.packing.prepare import prepare
 
     found = scene_regions.plan(scene)
+    for law in found.laws:
+        _require_shapes(scene, database, law)
     drawn = [
         _draw_enough(scene, database, law, law.area, (seed, DRAW_STAGE, number))
         for number, law in enumerate(found.laws)
@@ -278,6 +280,20 @@ def _draw_enough(
 
 def _generator(seed: int, *stage: int) -> np.random.Generator:
     return np.random.default_rng(np.random.SeedSequence(seed, spawn_key=stage))
+
+
+def _require_shapes(scene: Scene, database: ShapeDatabase, law: RegionLaws) -> None:
+    """Raise InputError where no shape has the descriptor that follows a law in a region."""
+    from grainfront.draw import coverage
+
+    if law.matched is None:
+        return
+    name, prescribed = law.matched
+    try:
+        coverage(database.descriptors[name], prescribed)
+    except InputError as error:
+        key = f"arrangement.regions[{law.region}].{name}"
+        raise InputError(f"{scene.name}: {key}: {error}") from None
 
 
 def shape_coverage(scene: Scene, database: ShapeDatabase) -> Coverage | None:

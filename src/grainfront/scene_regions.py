@@ -12,6 +12,7 @@ import numpy as np
 from grainfront.arrangement.regions import Arrangement as Regions
 from grainfront.errors import InputError
 from grainfront.laws import Law, Truncated
+from grainfront.particles import Rectangle
 from grainfront.particles import Region as Domain
 from grainfront.scene import Scene
 
@@ -51,35 +52,31 @@ class RegionLaws:
 class Plan:
     """What an arrangement asks of a packing: the map of its regions and the laws of each.
 
-    `x` (n,), `height` (k,) and `area_below` (n_laws, k, n) tell how much of the area of each law
-    lies below each height in upright columns.
+    Points in the middle of `rows` by `columns` cells over the domain stand for the area about them:
+    `law` (rows, columns) is the law at each, OUTSIDE where it is not in the domain.
     `parting` is the probability at which the size law is parted; None where it is not, or where the
     scene gives the size itself.
     """
 
     regions: RegionMap
     laws: tuple[RegionLaws, ...]
-    x: np.ndarray
-    height: np.ndarray
-    area_below: np.ndarray
+    law: np.ndarray
     parting: float | None
 
 
 def plan(scene: Scene) -> Plan:
     """The laws of all strata of all regions, and last of the rest of the domain.
 
-    Raises InputError where a region lies outside the domain, and where a part of the size law has
-    no place in it.
+    Raises InputError where a region's zone cannot be had or lies outside the domain, and where a
+    part of the size law has no place in it.
     """
-    from grainfront.arrangement.build import region_map
-
     assert scene.arrangement is not None, "there are no regions"
-    regions = region_map(scene.arrangement, scene.domain)
-    x, height, area_below = _areas(scene, regions)
-    area = area_below[:, -1].sum(axis=1)
+    regions = _region_map(scene, scene.arrangement)
+    point = _laws_of_points(scene, regions)
+    area = _area_of_laws(scene.domain, point, int(regions.first[-1]) + 1)
     laws = _laws(scene, scene.arrangement, area)
     if all(law.part is None for law in laws):
-        return Plan(regions, laws, x, height, area_below, None)
+        return Plan(regions, laws, point, None)
     coarser, finer = (sum(law.area for law in laws if law.part == p) for p in (COARSER, FINER))
     for part, found in (("finer", finer), ("coarser", coarser)):
         if not found:
@@ -91,7 +88,7 @@ def plan(scene: Scene) -> Plan:
     if critical is None:
         parting = _parting(scene.size, finer / (finer + coarser))
         critical = float(scene.size.quantile(parting))
-    return Plan(regions, parted(scene, laws, critical), x, height, area_below, parting)
+    return Plan(regions, parted(scene, laws, critical), point, parting)
 
 
 def parted(scene: Scene, laws: Sequence[RegionLaws], critical: float) -> tuple[RegionLaws, ...]:
@@ -117,7 +114,7 @@ def keeper(
     parts = np.split(size, last[:-1])
     level = [law.size.cdf(one) for law, one in zip(found.laws, parts, strict=True)]
     part = np.array([NO_PART if law.part is None else law.part for law in found.laws])
-    area = np.array([found.area_below[part == p].sum(axis=0) for p in (0, 1)])
+    x, height, area = _area_below(scene.domain, found.law, part)
     solid = VOLUME_FRACTION * area[:, -1].sum()
     particles = solid / (hull_area * scene.size.moment(2))
     share = np.array([1.0 - found.parting, found.parting])
@@ -125,7 +122,7 @@ def keeper(
         scene.size.quantile,
         part,
         np.concatenate(level),
-        Columns(found.x, found.height, area),
+        Columns(x, height, area),
         particles * share / area[:, -1].sum(axis=1),
     )
 
@@ -135,11 +132,11 @@ def distances(scene: Scene) -> dict[int, np.ndarray]:
 
     Their shape is (rows, columns), the first row at the bottom, first and last values on the walls.
     """
-    from grainfront.arrangement.build import region_map
-    from grainfront.arrangement.fields import distance_at
+    from grainfront.arrangement.build import resolve_regions
+    from grainfront.arrangement.fields import distance_at, signed_distances
 
     assert scene.arrangement is not None, "there are no regions"
-    field, domain = region_map(scene.arrangement, scene.domain).field, scene.domain
+    resolved, domain = resolve_regions(scene.arrangement, scene.domain), scene.domain
     step = max(domain.width, domain.height) / AREA_POINTS
     columns, rows = (max(round(side / step), 1) for side in (domain.width, domain.height))
     x, y = np.meshgrid(
@@ -147,7 +144,8 @@ def distances(scene: Scene) -> dict[int, np.ndarray]:
         np.linspace(domain.y_min, domain.y_max, rows + 1),
     )
     zones = [n for n, region in enumerate(scene.arrangement.regions) if region.inside is not None]
-    return {n: distance_at(field, n, x, y) for n in zones}
+    # zone by zone, as the grid of many needs much memory
+    return {n: distance_at(signed_distances([resolved[n]], domain), 0, x, y) for n in zones}
 
 
 def _laws(scene: Scene, arrangement: Regions, area: np.ndarray) -> tuple[RegionLaws, ...]:
@@ -179,8 +177,18 @@ def _laws(scene: Scene, arrangement: Regions, area: np.ndarray) -> tuple[RegionL
     return (*found, rest)
 
 
-def _areas(scene: Scene, regions: RegionMap) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Middles of columns, heights, and the area of each law below them, counted in points."""
+def _region_map(scene: Scene, arrangement: Regions) -> RegionMap:
+    """The map of the regions; InputError that names the scene where there cannot be one."""
+    from grainfront.arrangement.build import region_map
+
+    try:
+        return region_map(arrangement, scene.domain)
+    except InputError as error:
+        raise InputError(f"{scene.name}: {error}") from None
+
+
+def _laws_of_points(scene: Scene, regions: RegionMap) -> np.ndarray:
+    """The law at points over the domain, shape (rows, columns), the first row at the bottom."""
     from grainfront.arrangement.build import assign
 
     domain = scene.domain
@@ -188,14 +196,35 @@ def _areas(scene: Scene, regions: RegionMap) -> tuple[np.ndarray, np.ndarray, np
     columns, rows = (max(round(side / step), 1) for side in (domain.width, domain.height))
     x = domain.x_min + domain.width * (np.arange(columns) + 0.5) / columns
     y = domain.y_min + domain.height * (np.arange(rows) + 0.5) / rows
-    n_strata = int(regions.first[-1])
     stratum = assign(regions, x[None, :], y[:, None]).stratum
-    law = np.where(stratum < 0, n_strata, stratum)
+    law = np.where(stratum < 0, int(regions.first[-1]), stratum)
     if isinstance(domain, Domain):
         law[~domain.holds(*np.meshgrid(x, y))] = OUTSIDE
-    count = np.array([np.cumsum(law == n, axis=0) for n in range(n_strata + 1)])
-    below = np.concatenate([np.zeros((n_strata + 1, 1, columns)), count], axis=1)
+    return law
+
+
+def _area_of_laws(domain: Rectangle, law: np.ndarray, n_laws: int) -> np.ndarray:
+    """The area of each law, counted in points column by column."""
+    column = np.broadcast_to(np.arange(law.shape[1]), law.shape)
+    held = law != OUTSIDE
+    index = law[held] * law.shape[1] + column[held]
+    count = np.bincount(index, minlength=n_laws * law.shape[1]).reshape(n_laws, -1)
+    return (count * (domain.width * domain.height) / law.size).sum(axis=1)
+
+
+def _area_below(
+    domain: Rectangle, law: np.ndarray, part: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Middles of columns, heights, and the area of both parts below them, (2, rows + 1, columns).
+
+    `part` (n_laws,) is that of each law.
+    """
+    rows, columns = law.shape
+    x = domain.x_min + domain.width * (np.arange(columns) + 0.5) / columns
     height = domain.y_min + domain.height * np.arange(rows + 1) / rows
+    here = np.where(law == OUTSIDE, OUTSIDE, part[law])
+    count = np.array([np.cumsum(here == p, axis=0) for p in (COARSER, FINER)])
+    below = np.concatenate([np.zeros((2, 1, columns)), count], axis=1)
     return x, height, below * (domain.width * domain.height) / (rows * columns)
 
 

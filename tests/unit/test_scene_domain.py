@@ -111,11 +111,13 @@ def test_obstacles_are_no_part_of_the_domain(tmp_path):
         (f"{CELL}\nobstacles: {{path: stones.wkt}}", ["obstacles", "domain.periodic"]),
         (f"{L_SHAPE}\nobstacles: {{path: none.wkt}}", ["obstacles.path is 'none.wkt'", "none at"]),
         (f"{L_SHAPE}\nobstacles: {{path: stones.wkt}}", ["stones.wkt: Inclusion 0 crosses"]),
+        (f"{PLAIN}\nobstacles: {{path: all.wkt}}", ["all.wkt: The inclusions cover the domain"]),
         (f"{L_SHAPE}\nobstacles: {{path: torn.wkt}}", ["obstacles.path:", "torn.wkt: not WKT"]),
     ],
 )  # fmt: skip
 def test_what_cannot_be_is_told_in_one_sentence(tmp_path, domain, says):
     (tmp_path / "stones.wkt").write_text("POLYGON ((8 4, 12 4, 12 8, 8 4))\n")
+    (tmp_path / "all.wkt").write_text("POLYGON ((0 0, 20 0, 20 10, 0 10, 0 0))\n")
     (tmp_path / "torn.wkt").write_text("POLYGON ((8 4, 12\n")
     with pytest.raises(InputError) as error:
         load(tmp_path, (PLAIN, domain))
@@ -185,6 +187,37 @@ def test_each_domain_has_its_kernels(tmp_path):
 def test_a_cell_too_narrow_is_refused(tmp_path):
     scene = load(tmp_path, (PLAIN, "domain: {width: 5, height: 20, periodic: [x]}"))
     with pytest.raises(InputError, match=r"s: a periodic cell must be more than .* but is 5"):
+        api.pack(scene, api.build_shapes(scene), 1)
+
+
+@pytest.mark.parametrize(("height", "placed"), [(0.81, 0), (0.85, 3)])
+def test_a_cell_hardly_higher_than_its_grains(tmp_path, height, placed):
+    """No grain is left to be cut out of what was packed, and few or none fit in afterwards."""
+    low = f"domain: {{width: 20, height: {height}, periodic: [x]}}"
+    scene = load(tmp_path, (PLAIN, low))
+    database = api.build_shapes(scene)
+    if placed:
+        packing, _ = api.pack(scene, database, 1)
+        assert packing.x.size == placed and api.certify(packing).holds
+    else:
+        with pytest.raises(InputError, match=r"s: no particle fits into the domain of 20 by 0.81"):
+            api.pack(scene, database, 1)
+
+
+@pytest.mark.parametrize(
+    ("region", "told"),
+    [
+        ("inside: {circle: {centre: [8, 8], radius: 1}}, size: {truncated: {maximum: 1}}",
+         r"s: arrangement\.regions\[0\]\.inside lies outside the domain"),
+        ("aspect_ratio: {constant: 99}",
+         r"s: arrangement\.regions\[0\]\.aspect_ratio: the law goes from 99 to 99"),
+    ],
+)  # fmt: skip
+def test_what_a_region_cannot_have_is_told_with_scene_and_key(tmp_path, region, told):
+    """The first lies in the domain's bounding rectangle, where the domain is not."""
+    arranged = f"{L_SHAPE}\narrangement: {{regions: [{{{region}}}]}}"
+    scene = load(tmp_path, (PLAIN, arranged))
+    with pytest.raises(InputError, match=f"^{told}"):
         api.pack(scene, api.build_shapes(scene), 1)
 
 

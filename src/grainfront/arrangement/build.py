@@ -36,6 +36,8 @@ def resolve_regions(arrangement: Arrangement, domain: Rectangle) -> list[Resolve
             zone = resolve(_everywhere(domain) if region.inside is None else region.inside, domain)
         except InputError as error:
             raise InputError(f"{key}: {error}") from None
+        if zone.polygon.is_empty:
+            raise InputError(f"{key}: nothing is left of the zone, but a region must have an area")
         if zone.within(domain).area == 0.0:
             raise InputError(f"{key} lies outside the domain, but must hold a part of it")
         resolved.append(zone)
@@ -45,9 +47,11 @@ def resolve_regions(arrangement: Arrangement, domain: Rectangle) -> list[Resolve
 def region_map(arrangement: Arrangement, domain: Rectangle) -> RegionMap:
     """What the kernels ask for the region of a point of the domain.
 
-    Raises InputError as `resolve_regions` does.
+    Its field has distances to those zones alone that are graded by them. Raises InputError as
+    `resolve_regions` does.
     """
-    field = signed_distances(resolve_regions(arrangement, domain), domain)
+    measured = [isinstance(region.grade, GradedByDistance) for region in arrangement.regions]
+    field = signed_distances(resolve_regions(arrangement, domain), domain, measured)
     counts = [len(region.strata) for region in arrangement.regions]
     regions = RegionMap(
         field=field,

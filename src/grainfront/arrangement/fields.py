@@ -30,16 +30,23 @@ CELL_MARGIN = 0.01
 Lists = tuple[np.ndarray, np.ndarray]
 
 
-def signed_distances(zones: Sequence[Resolved], domain: Rectangle) -> SignedDistances:
-    """The distance grid of zones over a domain; zone k of the kernels is `zones[k]`."""
+def signed_distances(
+    zones: Sequence[Resolved], domain: Rectangle, measured: Sequence[bool] | None = None
+) -> SignedDistances:
+    """The distance grid of zones over a domain; zone k of the kernels is `zones[k]`.
+
+    Zones that are not `measured` know which points they hold, and no distances: these take most of
+    the time and memory where there are many zones.
+    """
+    measured = [True] * len(zones) if measured is None else measured
     edges = [_edges(zone.polygon) for zone in zones]
     kept = [e[_bounding(e, zone.window)] for e, zone in zip(edges, zones, strict=True)]
     cell, columns, rows = _grid(kept, domain)
     touching: list[Lists] = []
     nearest: list[Lists] = []
     first = 0
-    for one in kept:
-        pairs = _pairs(one, domain, cell, columns, rows)
+    for one, distances in zip(kept, measured, strict=True):
+        pairs = _pairs(one, domain, cell, columns, rows, distances)
         for lists, (cells, segments) in zip((touching, nearest), pairs, strict=True):
             lists.append((np.bincount(cells, minlength=columns * rows), segments + first))
         first += len(one)
@@ -118,9 +125,12 @@ def _grid(edges: Sequence[np.ndarray], domain: Rectangle) -> tuple[float, int, i
 
 
 def _pairs(
-    edges: np.ndarray, domain: Rectangle, cell: float, columns: int, rows: int
+    edges: np.ndarray, domain: Rectangle, cell: float, columns: int, rows: int, distances: bool
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Cells and the segments that touch them, cells and the segments nearest to points of them."""
+    """Cells and the segments that touch them, cells and the segments nearest to points of them.
+
+    The latter are none where there are to be no `distances`.
+    """
     if not len(edges):
         return np.empty((2, 0), np.int64), np.empty((2, 0), np.int64)
     tree = shapely.STRtree(shapely.linestrings(edges.reshape(-1, 2, 2)))
@@ -129,15 +139,15 @@ def _pairs(
     )
     x, y, margin = x.ravel(), y.ravel(), CELL_MARGIN * cell
     boxes = shapely.box(x - margin, y - margin, x + cell + margin, y + cell + margin)
+    touching = _by_cell(tree.query(boxes, predicate="intersects"))
+    if not distances:
+        return touching, np.empty((2, 0), np.int64)
     centres = shapely.points(x + cell / 2, y + cell / 2)
     _, least = tree.query_nearest(centres, return_distance=True, all_matches=False)
     # every point of a cell is within half its diagonal of the centre, and so is its nearest segment
     # within that more than the centre's nearest, seen from the point
     reach = least + math.sqrt(2.0) * cell + 4.0 * margin
-    return (
-        _by_cell(tree.query(boxes, predicate="intersects")),
-        _by_cell(tree.query(centres, predicate="dwithin", distance=reach)),
-    )
+    return touching, _by_cell(tree.query(centres, predicate="dwithin", distance=reach))
 
 
 def _by_cell(pairs: np.ndarray) -> np.ndarray:

@@ -15,6 +15,9 @@ READERS = {
     ".wkt": shapely.from_wkt,
 }
 
+# As in scenes: squares of larger coordinates are no numbers any more.
+LARGEST_NUMBER = 1e50
+
 
 def read_polygons(path: str) -> shapely.Geometry:
     """The union of all polygons in a file.
@@ -56,6 +59,12 @@ def _checked(path: str, part: shapely.Geometry) -> shapely.Geometry:
         raise InputError(f"{path}: holds a {part.geom_type}, but must hold polygons alone")
     if not np.isfinite(shapely.get_coordinates(part)).all():
         raise InputError(f"{path}: a coordinate is not a finite number")
+    farthest = float(np.abs(shapely.get_coordinates(part)).max(initial=0.0))
+    if farthest > LARGEST_NUMBER:
+        raise InputError(
+            f"{path}: a coordinate is {farthest:g}, but must be of a magnitude up to "
+            f"{LARGEST_NUMBER:g}"
+        )
     if not part.is_valid or part.area == 0.0:
         reason = shapely.is_valid_reason(part) if not part.is_valid else "its area is 0"
         raise InputError(f"{path}: a polygon is not simple with holes inside ({reason})")

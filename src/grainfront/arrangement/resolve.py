@@ -18,7 +18,7 @@ import shapely
 from grainfront.arrangement import zones
 from grainfront.arrangement.zones import Zone
 from grainfront.errors import InputError
-from grainfront.particles import Rectangle
+from grainfront.particles import Rectangle, Region
 
 # Circles and round corners are drawn with an edge for each degree: it strays from the arc by
 # 1 − cos(0.5°) = 4e-5 of the radius.
@@ -41,8 +41,10 @@ class Resolved(NamedTuple):
 
     def within(self, domain: Rectangle) -> shapely.Geometry:
         """The part of the zone that lies in the domain."""
-        box = shapely.box(domain.x_min, domain.y_min, domain.x_max, domain.y_max)
-        return _polygons_of(shapely.intersection(self.polygon, box))
+        whole = shapely.box(domain.x_min, domain.y_min, domain.x_max, domain.y_max)
+        if isinstance(domain, Region):
+            whole = domain.to_shapely()
+        return _polygons_of(shapely.intersection(self.polygon, whole))
 
 
 class Motion(NamedTuple):

@@ -102,7 +102,8 @@ def _cut(packed: Packing, cell: Cell, offset: np.ndarray) -> Packing:
     near = _near_border(part, cell)
     shapes = part.polygons.chosen(near).to_shapely()
     # of particles closer than this, rounding might make their images overlap
-    apart = CLEARANCE_ULPS * float(np.spacing(1.0)) * float(np.abs(part.polygons.nodes).max())
+    farthest = float(np.abs(part.polygons.nodes).max(initial=0.0))
+    apart = CLEARANCE_ULPS * float(np.spacing(1.0)) * farthest
     clashes = []
     for shift in cell.shifts[1:]:
         tree = shapely.STRtree(shapely.transform(shapes, lambda nodes, by=shift: nodes + by))

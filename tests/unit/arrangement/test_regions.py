@@ -14,7 +14,7 @@ from grainfront.arrangement.regions import (
     LocalLaws,
     Region,
 )
-from grainfront.arrangement.zones import Bars, Box, Circle, HalfPlane
+from grainfront.arrangement.zones import Bars, Box, Circle, HalfPlane, Offset
 from grainfront.errors import InputError
 from grainfront.geometry.regions import MIXED, REST
 from grainfront.laws import Constant
@@ -76,6 +76,24 @@ def test_a_region_outside_the_domain_is_refused():
     near = Region(Circle((3.0, 6.0), 3.0), LAWS)
     with pytest.raises(InputError, match=r"arrangement.regions\[1\].inside lies outside"):
         region_map(Arrangement((near, far)), DOMAIN)
+
+
+def test_distances_are_kept_only_of_zones_that_are_graded_by_them():
+    """Fifty circles took minutes and gigabytes, for distances that nobody asked for."""
+    strata = (LocalLaws(orientation=Constant(1.0)), LocalLaws(orientation=Constant(2.0)))
+    plain = Region(Circle((3.0, 6.0), 3.0), LAWS)
+    graded = Region(Circle((3.0, 6.0), 2.0), strata, GradedByDistance(0.0, -1.0))
+    field = region_map(Arrangement((plain, graded)), DOMAIN).field
+    cells = field.columns * field.rows
+    assert field.nearest_offsets[cells] == 0
+    assert np.all(np.diff(field.nearest_offsets[cells:]) > 0)
+    assert field.touching_offsets[cells] > 0
+
+
+def test_a_region_of_which_nothing_is_left_is_refused_as_such():
+    gone = Region(Offset(Circle((3.0, 6.0), 3.0), -4.0), LAWS)
+    with pytest.raises(InputError, match=r"regions\[0\].inside: nothing is left of the zone"):
+        region_map(Arrangement((gone,)), DOMAIN)
 
 
 def test_what_is_wrong_with_a_zone_is_told_with_its_region():

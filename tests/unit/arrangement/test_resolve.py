@@ -213,6 +213,7 @@ def test_files_of_polygons(tmp_path, name, text, area):
         ("a.wkt", "", "no polygon in this file"),
         ("a.wkt", "POINT (1 1)", "holds a Point"),
         ("a.wkt", "POLYGON ((0 0, 2 2, 2 0, 0 2, 0 0))", "not simple"),
+        ("a.wkt", "POLYGON ((0 0, 1e300 0, 0 1e300, 0 0))", r"a coordinate is 1e\+300"),
         ("a.geojson", "{", "not GEOJSON"),
         ("a.geojson", '{"type": "FeatureCollection", "features": []}', "no polygon"),
     ],
