@@ -65,7 +65,7 @@ def test_inclusions_are_cut_out_node_by_node():
         ([STAR, shapely.box(6, 6, 8, 8)], "Inclusion 1 crosses"),
         ([shapely.box(8, 8, 10, 10)], "Inclusion 0 crosses the boundary"),
         ([shapely.LineString([(1, 1), (2, 2)])], "Inclusion 0 is a LineString"),
-        ([SQUARE], "an empty"),
+        ([SQUARE], "cover the domain"),
     ],
 )
 def test_inclusions_out_of_place_are_refused(inclusions, says):
