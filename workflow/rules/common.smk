@@ -29,9 +29,14 @@ def scene_file(scene):
 
 
 def read_config():
-    """The configuration, checked; InputError where it is at fault."""
+    """The configuration and what `--config` changes in it, checked; InputError where at fault.
+
+    Snakemake's own `configfile:` would run what a template says.
+    """
+    name = "config/config.yaml"
     schema = json.loads(read_text(Path(workflow.basedir) / "config/config.schema.json"))
-    return parse_checked(yaml.safe_dump(dict(config)), schema, "config/config.yaml")
+    given = parse_checked(read_text(Path(name)), schema, name)
+    return parse_checked(yaml.safe_dump(given | config), schema, name)
 
 
 try:

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import warnings
-from pathlib import Path
-
 import numpy as np
 import shapely
-import skimage.data
 from scipy import ndimage
-from skimage import color, io, measure, util
+from skimage import color, measure, util
 
-from grainfront.arrangement.zones import SHIPPED, Silhouette
+from grainfront.arrangement.zones import Silhouette
 from grainfront.errors import InputError
+from grainfront.pixels import read_pixels
 
 # The images inside scikit-image's own package with a figure to be told from its ground.
 SHIPPED_IMAGES = ("horse",)
@@ -57,7 +54,7 @@ def _figure_of(path: str, dark: bool) -> shapely.Geometry:
 
 def _grey(path: str) -> np.ndarray:
     """Grey values from 0 to 1, float64 of shape (rows, columns), seen against white."""
-    pixels = _read(path)
+    pixels = read_pixels(path, SHIPPED_IMAGES)
     if pixels.ndim == 3 and pixels.shape[2] == 2:  # grey and opacity
         pixels = np.dstack([pixels[..., :1]] * 3 + [pixels[..., 1:]])
     if pixels.ndim == 3 and pixels.shape[2] == 4:
@@ -71,28 +68,3 @@ def _grey(path: str) -> np.ndarray:
     if not 0.0 < high - low < np.inf:
         raise InputError(f"{path}: an image of a single grey value shows no figure")
     return (grey - low) / (high - low)
-
-
-def _read(path: str) -> np.ndarray:
-    if path.startswith(SHIPPED):
-        return getattr(skimage.data, _shipped(path))()
-    if not Path(path).is_file():
-        raise InputError(f"{path}: there is no such image file")
-    try:
-        # what the readers warn of, such as a large image, either ends in an error or is none
-        with warnings.catch_warnings(action="ignore"):
-            pixels = np.asarray(io.imread(path))
-    except Exception as reason:  # each of the image readers raises errors of its own
-        told = str(reason).strip().split("\n")[0][:200] or type(reason).__name__
-        raise InputError(f"{path}: not a readable image ({told})") from reason
-    if pixels.ndim not in (2, 3) or pixels.size == 0:
-        raise InputError(f"{path}: an image has rows and columns, this has shape {pixels.shape}")
-    return pixels
-
-
-def _shipped(path: str) -> str:
-    name = path.removeprefix(SHIPPED)
-    if name not in SHIPPED_IMAGES:
-        allowed = ", ".join(SHIPPED + known for known in SHIPPED_IMAGES)
-        raise InputError(f"{path}: no such silhouette inside scikit-image; allowed is {allowed}")
-    return name

@@ -2,29 +2,22 @@
 
 from __future__ import annotations
 
-import logging
-import warnings
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-import skimage.data
 from scipy import ndimage
-from skimage import color, feature, filters, io, measure, morphology, segmentation, util
+from skimage import color, feature, filters, measure, morphology, segmentation, util
 
 from grainfront.errors import InputError
+from grainfront.pixels import read_pixels
 from grainfront.polygons import Polygons
 from grainfront.shapes.outlines import trace_labels
 from grainfront.shapes.sources import (
-    SHIPPED,
     BinaryMasks,
     LabelMasks,
     Photographs,
     Segmentation,
 )
-
-# What tifffile logs of a damaged file is told by the error that follows.
-logging.getLogger("tifffile").addHandler(logging.NullHandler())
 
 # The photographs and the silhouette inside scikit-image's own package, which need no download.
 SHIPPED_IMAGES = ("gravel", "coins", "horse")
@@ -53,7 +46,7 @@ def find_outlines(source: Photographs | BinaryMasks | LabelMasks) -> list[FoundO
 
 
 def _find_in(path: str, source: Photographs | BinaryMasks | LabelMasks) -> FoundOutlines:
-    pixels = read_image(path)
+    pixels = read_pixels(path, SHIPPED_IMAGES)
     if isinstance(source, Photographs):
         image = _grey(path, pixels)
         labels = segment(image, source.segmentation)
@@ -70,30 +63,6 @@ def _find_in(path: str, source: Photographs | BinaryMasks | LabelMasks) -> Found
         dropped = ", ".join(f"{reason} {n}" for reason, n in counts.items() if n) or "nothing found"
         raise InputError(f"{path}: no grain to keep in this image ({dropped}).")
     return FoundOutlines(path, image, outlines, counts)
-
-
-def read_image(path: str) -> np.ndarray:
-    """Read an image file, or one inside scikit-image ("skimage:gravel"), as it is.
-
-    Raises InputError, naming the file, where it cannot be read.
-    """
-    if path.startswith(SHIPPED):
-        name = path.removeprefix(SHIPPED)
-        if name not in SHIPPED_IMAGES:
-            allowed = ", ".join(SHIPPED + known for known in SHIPPED_IMAGES)
-            raise InputError(f"{path}: no such image inside scikit-image; allowed are {allowed}.")
-        return getattr(skimage.data, name)()
-    if not Path(path).is_file():
-        raise InputError(f"{path}: there is no such image file.")
-    try:
-        # what the readers warn of, such as a large image, either ends in an error or is none
-        with warnings.catch_warnings(action="ignore"):
-            pixels = np.asarray(io.imread(path))
-    except Exception as reason:  # each of the image readers raises errors of its own
-        raise InputError(f"{path}: not a readable image ({_first_line(reason)}).") from reason
-    if pixels.ndim not in (2, 3) or pixels.size == 0:
-        raise InputError(f"{path}: an image has rows and columns, this has shape {pixels.shape}.")
-    return pixels
 
 
 def segment(image: np.ndarray, options: Segmentation) -> np.ndarray:
@@ -166,7 +135,3 @@ def _labels(path: str, pixels: np.ndarray) -> np.ndarray:
         raise InputError(f"{path}: labels start at 0 (background), the least is {pixels.min()}.")
     # Consecutive labels: a mask may number its grains by any large numbers.
     return np.unique(pixels, return_inverse=True)[1].reshape(pixels.shape) + int(pixels.min() > 0)
-
-
-def _first_line(reason: Exception) -> str:
-    return str(reason).strip().split("\n")[0][:200] or type(reason).__name__

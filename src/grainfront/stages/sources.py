@@ -13,10 +13,10 @@ _ALWAYS = (
 )  # fmt: skip
 _FILES = ("files.atomic", "files.contract", "files.dataset", "files.header", "files.netcdf")
 _DATABASE = ("shapes.database", "shapes.descriptors")
-_REGIONS = ("arrangement", "scene_regions")
+_REGIONS = ("arrangement", "pixels", "scene_regions")
 _LAWS = ("laws", "shapes.sources", *_ALWAYS)
 SOURCES = {
-    "shapes": ("draw", "shapes", "laws", *_FILES, *_ALWAYS),
+    "shapes": ("draw", "pixels", "shapes", "laws", *_FILES, *_ALWAYS),
     "packing": (
         "draw", "geometry", "jit", "packing", *_REGIONS, *_DATABASE, *_FILES, *_LAWS,
     ),
@@ -43,8 +43,8 @@ SOURCES = {
     "arrangement_picture": ("figures", "geometry", "jit", "files.atomic", *_REGIONS, *_LAWS),
     "vtk": ("files.vtk", *_FILES, *_LAWS),
     "figures": (
-        "certificate", "figures", "geometry", "jit", "shapes", "statistics", "files.statistics",
-        *_FILES, *_LAWS,
+        "certificate", "figures", "geometry", "jit", "pixels", "shapes", "statistics",
+        "files.statistics", *_FILES, *_LAWS,
     ),
 }  # fmt: skip
 """What of the package each stage's results depend on: modules, and packages with all of theirs."""

@@ -84,7 +84,7 @@ def test_a_polygon_with_a_hole():
         (Polygon(((0.0, 0.0), (2.0, 2.0), (4.0, 4.0))), "not simple"),
         (Bars(1e-6, 2e-6), "apart, which makes"),
         (Silhouette("none.png", (1.0, 1.0), 2.0), "none.png: there is no such image"),
-        (Silhouette("skimage:cat", (1.0, 1.0), 2.0), "allowed is skimage:horse"),
+        (Silhouette("skimage:cat", (1.0, 1.0), 2.0), "allowed are skimage:horse"),
         (PolygonsFile("none.wkt"), "none.wkt: not readable"),
         (PolygonsFile("none.shp"), "files ending in .geojson, .json, .wkt"),
     ],
