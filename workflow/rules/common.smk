@@ -39,23 +39,48 @@ def read_config():
     return parse_checked(yaml.safe_dump(given | config), schema, name)
 
 
+def files_of_shapes(scene):
+    """The files that the shapes of a scene come from; a photograph of scikit-image is none."""
+    source = scene.shapes
+    paths = [source.path] if hasattr(source, "path") else getattr(source, "paths", [])
+    return [path for path in paths if not path.startswith(SHIPPED)]
+
+
+def files_of_zones(scene):
+    """The images and files that the zones of a scene come from."""
+    return sorted(scene.arrangement.files) if scene.arrangement else []
+
+
+def read_scene(name):
+    """A scene, checked; InputError where it is at fault or names files that Snakemake cannot take."""
+    scene = api.load_scene(scene_file(name))
+    for path in files_of_shapes(scene) + files_of_zones(scene):
+        if "{" in path or "}" in path:
+            raise InputError(
+                f"{scene_file(name)}: the file {path!r} must have a name without braces, "
+                "which Snakemake takes for wildcards"
+            )
+    return scene
+
+
 try:
     CONFIG = read_config()
-    SCENES = {name: api.load_scene(scene_file(name)) for name in CONFIG["scenes"]}
+    SCENES = {name: read_scene(name) for name in CONFIG["scenes"]}
 except InputError as error:
     sys.exit(api.sentence(error))
+
+
+def image_files(wildcards):
+    return files_of_shapes(SCENES[wildcards.scene])
+
+
+def arrangement_files(wildcards):
+    return files_of_zones(SCENES[wildcards.scene])
 
 
 def kinds_of(scene):
     """The hulls as packed and, with replacement, the outlines."""
     return list(KINDS) if scene.replacement else [""]
-
-
-def image_files(wildcards):
-    """The files that the shapes of a scene come from; a photograph of scikit-image is none."""
-    source = SCENES[wildcards.scene].shapes
-    paths = [source.path] if hasattr(source, "path") else getattr(source, "paths", [])
-    return [path for path in paths if not path.startswith(SHIPPED)]
 
 
 def has_images(scene):
@@ -65,12 +90,6 @@ def has_images(scene):
 def has_zones(scene):
     regions = scene.arrangement.regions if scene.arrangement else ()
     return any(region.inside for region in regions)
-
-
-def arrangement_files(wildcards):
-    """The images and files that the zones of a scene come from."""
-    arrangement = SCENES[wildcards.scene].arrangement
-    return sorted(arrangement.files) if arrangement else []
 
 
 def results_of(scene):
