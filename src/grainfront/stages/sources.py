@@ -11,7 +11,9 @@ _ALWAYS = (
     "particles", "polygons", "scene", "scene_arrangement", "scene_laws", "scene_packing",
     "scene_statistics", "stages",
 )  # fmt: skip
-_FILES = ("files.atomic", "files.contract", "files.dataset", "files.header", "files.netcdf")
+_FILES = (
+    "files.atomic", "files.contract", "files.dataset", "files.header", "files.netcdf", "files.seal",
+)  # fmt: skip
 _DATABASE = ("shapes.database", "shapes.descriptors")
 _REGIONS = ("arrangement", "pixels", "scene_regions")
 _LAWS = ("laws", "shapes.sources", *_ALWAYS)
