@@ -1,6 +1,7 @@
 # The scenes, checked; what each of them asks for; and on what the results of each stage depend.
 
 import json
+import os
 import sys
 from pathlib import Path
 
@@ -68,6 +69,13 @@ try:
     SCENES = {name: read_scene(name) for name in CONFIG["scenes"]}
 except InputError as error:
     sys.exit(api.sentence(error))
+
+
+# Told once, before the first job, not by each of them.
+onstart:
+    Path("results").mkdir(exist_ok=True)
+    if not os.access("results", os.W_OK):
+        sys.exit("grainfront: results: the folder is not writable.")
 
 
 def image_files(wildcards):
