@@ -27,7 +27,7 @@ def digest_of_a_packing() -> str:
         Polygons.of([np.column_stack([np.cos(angle), np.sin(angle)]) / 1.8]),
         np.zeros(150, dtype=np.int64),
         rng.uniform(0.5, 1.0, 150),
-        orientation_law(np.full(12, 1 / 12), np.linspace(0.0, 180.0, 3073)),
+        [orientation_law(np.full(12, 1 / 12), np.linspace(0.0, 180.0, 3073))],
         Rectangle(0.0, 0.0, 6.0, 6.0),
         6,
         4,
