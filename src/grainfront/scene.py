@@ -12,6 +12,7 @@ from typing import Any, TypeVar
 from grainfront.arrangement.regions import Arrangement, LocalLaws
 from grainfront.checked_yaml import parse_checked, read_text
 from grainfront.errors import InputError
+from grainfront.image_files import SHIPPED
 from grainfront.laws import Law
 from grainfront.particles import Rectangle
 from grainfront.scene_arrangement import arrangement_of
@@ -251,7 +252,7 @@ def _segmentation(data: dict[str, Any]) -> sources.Segmentation:
 
 def _found(name: str, folder: Path, key: str) -> str:
     """The path of a file named in the scene, checked to be there."""
-    if name.startswith(sources.SHIPPED):
+    if name.startswith(SHIPPED):
         return name
     path = folder / name
     if not path.is_file():

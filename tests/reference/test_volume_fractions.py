@@ -21,7 +21,7 @@ def volume_fraction(aspect_ratio, n_angle, n_loc, seed):
     n = int(1.2 * 200**2 / (aspect_ratio * 1.75)) + 50
     empty = prepare(
         Polygons.of([nodes]), np.zeros(n, dtype=np.int64), rng.uniform(0.5, 2.0, n),
-        orientation_law(np.full(24, 1 / 24), np.linspace(0, 180, 6145)),
+        [orientation_law(np.full(24, 1 / 24), np.linspace(0, 180, 6145))],
         Rectangle(0.0, 0.0, 200.0, 200.0), n_angle, n_loc, rng,
     )  # fmt: skip
     packing, _ = fill(empty, np.full(1, aspect_ratio))

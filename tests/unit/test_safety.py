@@ -11,11 +11,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from grainfront import api, pixels
+from grainfront import api, image_files
 from grainfront.checked_yaml import parse_checked
 from grainfront.errors import InputError
 from grainfront.files.atomic import require_writable
-from grainfront.pixels import MOST_PIXELS, read_pixels
+from grainfront.image_files import MOST_PIXELS, read_image
 from grainfront.shapes.sources import FourierGrains, RandomConvexPolygons
 
 ROOT = Path(__file__).parents[2]
@@ -102,11 +102,11 @@ def png(width: int, height: int) -> bytes:
 
 @pytest.mark.parametrize("width", [MOST_PIXELS // 1000 + 1, 2 * 10**6])
 def test_an_image_of_too_many_pixels_is_refused_before_it_is_decoded(tmp_path, monkeypatch, width):
-    monkeypatch.setattr(pixels, "_decoded", None)
+    monkeypatch.setattr(image_files, "_decoded", None)
     path = tmp_path / "large.png"
     path.write_bytes(png(width, 1000))
     with pytest.raises(InputError, match=r"large\.png: has more than 100,000,000 pixels"):
-        read_pixels(str(path), ())
+        read_image(str(path))
 
 
 @pytest.mark.parametrize(
@@ -122,29 +122,29 @@ def test_the_pixels_of_a_tiff_are_counted(tmp_path, monkeypatch, shape, options)
 
     path = tmp_path / "large.tif"
     tifffile.imwrite(path, np.zeros(shape, np.uint8), **options)
-    assert pixels._count(str(path)) == 2000
-    monkeypatch.setattr(pixels, "_decoded", None)
-    monkeypatch.setattr(pixels, "MOST_PIXELS", 1999)
+    assert image_files._count(str(path)) == 2000
+    monkeypatch.setattr(image_files, "_decoded", None)
+    monkeypatch.setattr(image_files, "MOST_PIXELS", 1999)
     with pytest.raises(InputError, match=r"large\.tif: has more than"):
-        read_pixels(str(path), ())
+        read_image(str(path))
 
 
 def test_a_picture_of_many_frames_counts_them_all(tmp_path, monkeypatch):
     from PIL import Image
 
-    monkeypatch.setattr(pixels, "MOST_PIXELS", 20 * 20 * 3 - 1)
+    monkeypatch.setattr(image_files, "MOST_PIXELS", 20 * 20 * 3 - 1)
     path = tmp_path / "frames.gif"
     frames = [Image.fromarray(np.full((20, 20), i * 50, np.uint8)) for i in range(3)]
     frames[0].save(path, save_all=True, append_images=frames[1:])
     with pytest.raises(InputError, match=r"more than 1,199 pixels"):
-        read_pixels(str(path), ())
+        read_image(str(path))
 
 
 def test_what_is_no_image_is_not_given_to_other_readers(tmp_path):
     path = tmp_path / "a.npz"
     np.savez(path, image=np.zeros((40, 40), np.uint8))
     with pytest.raises(InputError, match=r"a\.npz: not a readable image"):
-        read_pixels(str(path), ())
+        read_image(str(path))
 
 
 SCENE = """

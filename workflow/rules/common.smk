@@ -10,7 +10,7 @@ import yaml
 from grainfront import api, stages
 from grainfront.checked_yaml import parse_checked, read_text
 from grainfront.errors import InputError
-from grainfront.shapes.sources import SHIPPED
+from grainfront.image_files import SHIPPED
 
 
 wildcard_constraints:

@@ -5,14 +5,12 @@ from __future__ import annotations
 import numpy as np
 import shapely
 from scipy import ndimage
-from skimage import color, measure, util
+from skimage import measure
 
 from grainfront.arrangement.zones import Silhouette
 from grainfront.errors import InputError
-from grainfront.pixels import read_pixels
+from grainfront.image_files import grey_values, read_image
 
-# The images inside scikit-image's own package with a figure to be told from its ground.
-SHIPPED_IMAGES = ("horse",)
 # Standard deviation, in pixels, of the Gaussian that turns the staircase of black and white pixels
 # into slopes, on which the contour at half grey runs straight.
 SMOOTHING = 1.0
@@ -39,7 +37,7 @@ def silhouette(zone: Silhouette) -> shapely.Geometry:
 
 def _figure_of(path: str, dark: bool) -> shapely.Geometry:
     """The figure in pixels, x to the right and y up."""
-    grey = _grey(path)
+    grey = grey_values(path, read_image(path))
     figure = 1.0 - grey if dark else grey
     # a frame of ground closes the contours of figures that touch the image's border
     padding = int(np.ceil(4 * SMOOTHING))
@@ -50,21 +48,3 @@ def _figure_of(path: str, dark: bool) -> shapely.Geometry:
     if simple.is_empty or simple.area == 0.0:
         raise InputError(f"{path}: no figure is {'darker' if dark else 'brighter'} than half grey")
     return simple
-
-
-def _grey(path: str) -> np.ndarray:
-    """Grey values from 0 to 1, float64 of shape (rows, columns), seen against white."""
-    pixels = read_pixels(path, SHIPPED_IMAGES)
-    if pixels.ndim == 3 and pixels.shape[2] == 2:  # grey and opacity
-        pixels = np.dstack([pixels[..., :1]] * 3 + [pixels[..., 1:]])
-    if pixels.ndim == 3 and pixels.shape[2] == 4:
-        pixels = color.rgba2rgb(pixels)
-    if pixels.ndim == 3 and pixels.shape[2] == 3:
-        pixels = color.rgb2gray(pixels)
-    if pixels.ndim != 2 or pixels.dtype.kind not in "buif" or not np.isfinite(pixels).all():
-        raise InputError(f"{path}: neither a grey nor an RGB image, its shape is {pixels.shape}")
-    grey = util.img_as_float64(pixels) if pixels.dtype.kind in "bui" else pixels.astype(np.float64)
-    low, high = float(grey.min()), float(grey.max())
-    if not 0.0 < high - low < np.inf:
-        raise InputError(f"{path}: an image of a single grey value shows no figure")
-    return (grey - low) / (high - low)

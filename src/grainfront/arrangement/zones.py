@@ -9,10 +9,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-Point = tuple[float, float]
+from grainfront.image_files import SHIPPED
 
-# A path of this beginning names an image that ships inside scikit-image, not a file.
-SHIPPED = "skimage:"
+Point = tuple[float, float]
 
 
 @dataclass(frozen=True)

@@ -70,6 +70,12 @@ def nth_other_law(arrangement, n, x, y):
 
 
 @inlined
+def is_elsewhere(arrangement, law, x, y):
+    """Whether a point lies in another region than that of a law."""
+    return region_at(arrangement, x, y) != arrangement.region_of_law[law]
+
+
+@inlined
 def admitted(arrangement, law, highest, outcome, x, y):
     """The outcome of a trial of a law's particle.
 
@@ -77,7 +83,7 @@ def admitted(arrangement, law, highest, outcome, x, y):
     """
     if y > highest:
         return BLOCKED
-    if outcome == RESOLVED and region_at(arrangement, x, y) != arrangement.region_of_law[law]:
+    if outcome == RESOLVED and is_elsewhere(arrangement, law, x, y):
         return BLOCKED
     return outcome
 

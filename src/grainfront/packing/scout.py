@@ -12,6 +12,7 @@ import math
 import numpy as np
 
 from grainfront.jit import inlined
+from grainfront.packing.arranged import is_elsewhere
 from grainfront.packing.front import front_length, member_at
 from grainfront.packing.memory import WIDTHS, contact_from_tangent
 from grainfront.packing.state import Trial
@@ -40,11 +41,11 @@ def shape_scout(trials, start, angle, inradius):
 
 
 @inlined
-def send_scout(front, placed, domain, trials, scout, memory, base, begin, p):
+def send_scout(front, placed, domain, trials, scout, memory, arrangement, law, base, begin, p):
     """Resolve the scout from pair p and note its place: its height and the pairs it covers.
 
-    Where a wall is met or the memory ends, the height is −∞: no bound. A pair that another scout of
-    this step came by leads to the same place.
+    Where a wall is met or the memory ends, the height is −∞: no bound. In the region of another law
+    it is ∞: no place. A pair that another scout of this step came by leads to the same place.
     """
     i = begin + p
     k = i + 1
@@ -71,6 +72,8 @@ def send_scout(front, placed, domain, trials, scout, memory, base, begin, p):
         position = overlapped_neighbour(front, placed, domain, trials, scout, i, k, x, y)
         if position == NOTHING:
             memory.height[p] = y
+            if arrangement is not None and is_elsewhere(arrangement, law, x, y):
+                memory.height[p] = np.inf
             break
         if position < i:
             i = position
@@ -81,14 +84,14 @@ def send_scout(front, placed, domain, trials, scout, memory, base, begin, p):
 
 
 @inlined
-def bound_pairs(front, placed, domain, trials, scout, memory, base, first, last):
+def bound_pairs(front, placed, domain, trials, scout, memory, arrangement, law, base, first, last):
     """Lower bounds of what trials reach from each pair, from the scout's places nearby."""
     begin = max(first - SCOUT_OUTSIDE, 0)
     end = min(last + SCOUT_OUTSIDE, front_length(front) - 2)
     n_sent = end + 1 - begin
     for p in range(n_sent):
         memory.bound[p] = np.inf
-        send_scout(front, placed, domain, trials, scout, memory, base, begin, p)
+        send_scout(front, placed, domain, trials, scout, memory, arrangement, law, base, begin, p)
     for p in range(n_sent):
         left = memory.covers[p, 0]
         right = memory.covers[p, 1]

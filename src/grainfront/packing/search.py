@@ -128,7 +128,7 @@ def choose_lowest(
     last = min(front.ends[0] + n_loc - 2, front_length(front) - 2)
     base = first - WIDTHS
     scout = shape_scout(trials, n_angle * count, n_angle, inradius)
-    bound_pairs(front, placed, domain, trials, scout, memory, base, first, last)
+    bound_pairs(front, placed, domain, trials, scout, memory, arrangement, law, base, first, last)
     sort_pairs(memory, last + 1 - first)
     best = no_trial_below(highest)
     for n in range(last + 1 - first):

