@@ -100,7 +100,8 @@ def _decoded(path: str) -> np.ndarray:
 
     if path.lower().endswith(TIFF):
         return np.asarray(skimage.io.imread(path))
-    return imageio.v3.imread(path, plugin="pillow")
+    pixels = imageio.v3.imread(path, plugin="pillow")
+    return pixels[0] if pixels.ndim == 4 and len(pixels) == 1 else pixels  # GIF counts its frames
 
 
 def _first_line(reason: Exception) -> str:
