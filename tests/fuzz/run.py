@@ -15,12 +15,16 @@ from pathlib import Path
 
 from hypothesis import HealthCheck, given, settings
 
+from grainfront.warm_up import compile_kernels
+
 sys.path.insert(0, str(Path(__file__).parent))
 from damage import check_file, damaged_files
 from scenes import check_scene, scenes
 
 EXAMPLES_A_TURN = 100
-HANGS_S = 300.0  # no example takes more than seconds, but the first compiles its kernels
+HANGS_S = 300.0  # no example takes more than seconds
+SEARCHES = [f"{regions}{search}" for regions in ("", "arranged_")
+            for search in ("exhaustive", "pruned", "controlled")]  # fmt: skip
 
 
 def main() -> None:
@@ -45,6 +49,8 @@ def main() -> None:
         faulthandler.dump_traceback_later(HANGS_S, exit=True)
         counts[f"{damaged[0]} {check_file(*damaged)}"] += 1
 
+    for search in SEARCHES:
+        compile_kernels(search)
     end = time.monotonic() + 60.0 * options.minutes
     while time.monotonic() < end:
         try_scene()
