@@ -127,6 +127,7 @@ def kills(base: Path, name: str, number: int, moments: random.Random) -> Counter
             if running:
                 seconds, alone = moments.uniform(0.2, 0.6 * took), moments.random() < 0.5
                 running = kill(project, goal, seconds, alone)
+                took = took if running else min(took, seconds)
                 counts["killed"] += running
                 counts["of them snakemake alone"] += running and alone
                 found = results(project)
@@ -146,10 +147,11 @@ def kills(base: Path, name: str, number: int, moments: random.Random) -> Counter
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--kills", type=int, default=50, help="kills of each goal")
+    parser.add_argument("--goals", nargs="+", choices=GOALS, default=list(GOALS))
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
     base = Path(tempfile.mkdtemp(prefix="kills-"))
-    for name in GOALS:
+    for name in options.goals:
         kills(base, name, options.kills, random.Random(options.seed))
     shutil.rmtree(base)
 
