@@ -24,6 +24,8 @@ from grainfront.studies import sweep
 ROOT = Path(__file__).parents[1]
 IMAGES = Path(__file__).parent / "images"
 DPI = 150
+COARSE_DPI = 120  # thousands of grains once more, after those of the README
+SCENES = ("cow", "graded_bed", "shear_band", "hopper", "periodic_cell")
 COLOURS = 256  # a palette: a third of the bytes
 
 
@@ -38,10 +40,10 @@ def main() -> None:
         "packing": packing_of("river_gravel"),
         "contour": contour_map(),
         "arrangement": zones_of(scene),
-        **{name: packing_of(name) for name in ("cow", "graded_bed", "shear_band")},
+        **{name: packing_of(name) for name in SCENES},
     }
     for name, figure in draw.items():
-        save_small(figure, IMAGES / f"{name}.png")
+        save_small(figure, IMAGES / f"{name}.png", COARSE_DPI if name in SCENES else DPI)
 
 
 def zones_of(scene: Scene) -> Figure:
@@ -60,12 +62,13 @@ def packing_of(name: str) -> Figure:
     scene = api.load_scene(ROOT / "config" / "scenes" / f"{name}.yaml")
     database = api.build_shapes(scene)
     packing, _ = api.pack(scene, database, scene.seeds[0])
-    outlines = api.replace(packing, database)
+    outlines = api.replace(packing, database) if scene.replacement else None
+    drawn = [packing] if outlines is None else [packing, outlines]
     return figures.packing(
         packing,
         outlines,
         length_unit=scene.length_unit,
-        volume_fractions=[api.volume_fractions(each)[0] for each in (packing, outlines)],
+        volume_fractions=[api.volume_fractions(each)[0] for each in drawn],
     )
 
 
@@ -96,10 +99,10 @@ def contour_map() -> Figure:
     )
 
 
-def save_small(figure: Figure, path: Path) -> None:
+def save_small(figure: Figure, path: Path, dpi: int = DPI) -> None:
     """Write a figure with the resolution and the colours that a page needs."""
     drawn = io.BytesIO()
-    figure.savefig(drawn, format="png", dpi=DPI, bbox_inches="tight", pad_inches=0.05)
+    figure.savefig(drawn, format="png", dpi=dpi, bbox_inches="tight", pad_inches=0.05)
     image = (
         Image.open(drawn)
         .convert("RGB")

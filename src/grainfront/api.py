@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from grainfront.errors import InputError
+from grainfront.particles import Cell, Region
 from grainfront.scene import Scene
 from grainfront.scene import load_scene as load_scene
 from grainfront.scene_packing import pack as pack
@@ -37,6 +38,8 @@ ImageSource = Photographs | BinaryMasks | LabelMasks
 SHAPES_SEED = 0
 # Begins the names of searches among particles of several regions.
 ARRANGED = "arranged_"
+# Ends the names of searches in domains that are no rectangles.
+OUTLINED = "_outlined"
 # A progress bar shows up only on packings that take longer than this.
 SECONDS_BEFORE_BAR = 1.0
 
@@ -182,6 +185,25 @@ def warn_of_uncovered(scene: Scene, database: ShapeDatabase) -> None:
         )
 
 
+def warn_of_empty_rooms(name: str | Path, packing: Packing) -> None:
+    """Say on standard error how many rooms of a domain stayed empty: islands, or beyond necks."""
+    if not isinstance(packing.domain, Region):
+        return
+    from grainfront.statistics import find_rooms
+
+    rooms = find_rooms(packing)
+    if not rooms.empty.any():
+        return
+    largest = int(np.argmax(np.where(rooms.empty, rooms.area, 0.0)))
+    print(
+        f"grainfront: warning: {name}: {rooms.empty.sum()} of {rooms.empty.size} rooms of "
+        "the domain, islands or beyond necks narrower than the mean grain, stayed empty, "
+        f"{100 * rooms.empty_area / packing.domain.area:.2g} % of its area, the largest of them "
+        f"about ({rooms.x[largest]:.4g}, {rooms.y[largest]:.4g}).",
+        file=sys.stderr,
+    )
+
+
 def sentence(error: Exception) -> str:
     """What a user is told of an error in the input or in reading and writing: one sentence."""
     text = " ".join(str(error).split()).rstrip(".") or type(error).__name__
@@ -207,15 +229,20 @@ def progress_bar() -> Iterator[Callable[[int, float], None] | None]:
         yield tell
 
 
-def search(scene: Scene) -> str:
+def searches(scene: Scene) -> list[str]:
     """How the lowest trials of a scene are found: each search has kernels of its own.
 
     "exhaustive" or "pruned", or "controlled" where the effort follows a target volume fraction; led
-    by "arranged_" where there are regions.
+    by "arranged_" where there are regions, and followed by "_outlined" in domains that are no
+    rectangles. A cell that repeats itself is cut out of a rectangle, and its seam is none.
     """
     from grainfront.packing import search_of
 
     found = search_of(scene.packing.n_angle, scene.packing.n_loc)
     if scene.target is not None:
         found = "controlled"
-    return found if scene.arrangement is None else f"{ARRANGED}{found}"
+    if scene.arrangement is not None:
+        found = f"{ARRANGED}{found}"
+    if isinstance(scene.domain, Cell):
+        return [found, f"{found}{OUTLINED}"]
+    return [f"{found}{OUTLINED}" if isinstance(scene.domain, Region) else found]

@@ -41,6 +41,18 @@ class Polygons:
         """Nodes of polygon i, shape (n, 2), a view."""
         return self.nodes[self.offsets[i] : self.offsets[i + 1]]
 
+    def chosen(self, index: np.ndarray) -> Polygons:
+        """Some of the polygons alone."""
+        counts = self.node_counts[index]
+        offsets = np.concatenate([[0], np.cumsum(counts)]).astype(np.int64)
+        nodes = np.arange(offsets[-1]) + np.repeat(self.offsets[:-1][index] - offsets[:-1], counts)
+        return Polygons(self.nodes[nodes], offsets)
+
+    def joined(self, other: Polygons) -> Polygons:
+        """These polygons and others after them."""
+        offsets = np.concatenate([self.offsets, other.offsets[1:] + self.offsets[-1]])
+        return Polygons(np.concatenate([self.nodes, other.nodes]), offsets)
+
     def to_shapely(self) -> np.ndarray:
         """Shapely polygons, shape (n_polygons,)."""
         import shapely

@@ -15,7 +15,8 @@ from grainfront.errors import InputError
 from grainfront.image_files import SHIPPED
 from grainfront.laws import Law
 from grainfront.particles import Rectangle
-from grainfront.scene_arrangement import arrangement_of
+from grainfront.scene_arrangement import Find, arrangement_of
+from grainfront.scene_domain import domain_of, require_room
 from grainfront.scene_laws import LAWS as LAWS
 from grainfront.scene_laws import law_of, matched_of
 from grainfront.shapes import sources
@@ -79,7 +80,8 @@ class Scene:
     `name` its name without the suffix. One packing is made for each of `seeds`. `matched` is the
     descriptor (aspect_ratio, circularity or regularity) that the choice of the shapes follows, and
     its law. `outputs` are those beyond NetCDF: "vtk", "figures".
-    `arrangement` tells where other laws hold.
+    `arrangement` tells where other laws hold. `domain_files` are those of the user's own that the
+    domain comes from.
     """
 
     name: str
@@ -98,6 +100,13 @@ class Scene:
     replacement: bool = False
     outputs: tuple[str, ...] = ()
     arrangement: Arrangement | None = None
+    domain_files: tuple[str, ...] = ()
+
+    @property
+    def zone_files(self) -> tuple[str, ...]:
+        """The images and files of the user's own that domain and regions come from."""
+        of_regions = self.arrangement.files if self.arrangement else set()
+        return tuple(sorted(of_regions.union(self.domain_files)))
 
 
 def scene_schema() -> dict[str, Any]:
@@ -121,9 +130,12 @@ def load_scene(path: str | Path) -> Scene:
 
 
 def _scene(path: Path, text: str, data: dict[str, Any]) -> Scene:
-    domain = _domain(data["domain"])
+    def find(name: str, key: str) -> str:
+        return _found(name, path.parent, key)
+
+    domain, domain_files = domain_of(data, find)
     size = law_of("size", data["size"], "size")
-    _require_room(domain, size)
+    require_room(domain, size)
     orientation = law_of("orientation", data["orientation"], "orientation")
     matched = _matched(data)
     seeds = _seeds(data)
@@ -144,7 +156,8 @@ def _scene(path: Path, text: str, data: dict[str, Any]) -> Scene:
         error_vs_time=_part(ErrorVsTime, "error_vs_time", data),
         replacement=data["replacement"],
         outputs=tuple(data["outputs"]),
-        arrangement=_arrangement(data, LocalLaws(size, matched, orientation), path.parent),
+        arrangement=_arrangement(data, LocalLaws(size, matched, orientation), find),
+        domain_files=domain_files,
     )
 
 
@@ -167,31 +180,15 @@ def _require_seeds(first: int, data: dict[str, Any]) -> None:
             )
 
 
-def _domain(data: dict[str, Any]) -> Rectangle:
-    x, y = map(float, data["origin"])
-    return Rectangle(x, y, x + data["width"], y + data["height"])
-
-
-def _require_room(domain: Rectangle, size: Law) -> None:
-    smallest, narrowest = size.support[0], min(domain.width, domain.height)
-    if smallest > narrowest:
-        raise InputError(
-            f"domain has a narrowest side of {narrowest:g}, but it must be at least as wide as the "
-            f"smallest grain, of size {smallest:g} (lower end of the size law)"
-        )
-
-
 def _matched(data: dict[str, Any]) -> tuple[str, Law] | None:
     name = matched_of(data)
     return (name, law_of(name, data[name], name)) if name else None
 
 
-def _arrangement(data: dict[str, Any], scene_laws: LocalLaws, folder: Path) -> Arrangement | None:
+def _arrangement(data: dict[str, Any], scene_laws: LocalLaws, find: Find) -> Arrangement | None:
     if "arrangement" not in data:
         return None
-    return arrangement_of(
-        data["arrangement"], scene_laws, lambda name, key: _found(name, folder, key)
-    )
+    return arrangement_of(data["arrangement"], scene_laws, find)
 
 
 def _target(data: dict[str, Any]) -> Target | None:

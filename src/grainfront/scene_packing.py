@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from grainfront.errors import InputError
+from grainfront.particles import Cell
 from grainfront.scene import Scene
 
 if TYPE_CHECKING:
@@ -59,6 +60,8 @@ def pack(
 
     if scene.target is not None:
         return pack_to_target(scene, database, seed, progress)[:2]
+    if isinstance(scene.domain, Cell):
+        return _pack_cell(scene, scene.domain, database, seed, progress)
     empty = _empty(scene, database, seed, _generator(seed, PACKING_STAGE))
     packing, run_time = fill(empty, database.descriptors["aspect_ratio"], progress)
     _require_particles(scene, packing)
@@ -97,6 +100,42 @@ def pack_to_target(
     if not attempts.reached:
         raise InputError(_not_reached(scene, database, seed, attempts))
     return packing, run_time, attempts
+
+
+def _pack_cell(
+    scene: Scene,
+    cell: Cell,
+    database: ShapeDatabase,
+    seed: int,
+    progress: Callable[[int, float], None] | None,
+) -> tuple[Packing, RunTime]:
+    """As `pack`, for a domain that repeats itself."""
+    from grainfront.packing.periodic import area_to_fill, pack_periodic
+
+    _require_resolved(scene)
+    shape_coverage(scene, database)
+    aspect_ratio = database.descriptors["aspect_ratio"]
+    radius = 0.5 * float(aspect_ratio.mean()) * scene.size.moment(1)
+    try:
+        area = area_to_fill(cell, radius)
+    except InputError as error:
+        raise InputError(f"{scene.name}: {error}") from None
+    shape, size = _draw_enough(scene, database, scene, area, (seed, DRAW_STAGE))
+    packing, run_time, _ = pack_periodic(
+        database.hulls,
+        aspect_ratio,
+        shape,
+        size,
+        _orientation(scene, scene.orientation),
+        cell,
+        scene.packing.n_angle,
+        scene.packing.n_loc,
+        _generator(seed, PACKING_STAGE),
+        radius,
+        progress,
+    )
+    _require_particles(scene, packing)
+    return packing, run_time
 
 
 def _not_reached(scene: Scene, database: ShapeDatabase, seed: int, attempts: Attempts) -> str:

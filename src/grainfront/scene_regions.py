@@ -12,6 +12,7 @@ import numpy as np
 from grainfront.arrangement.regions import Arrangement as Regions
 from grainfront.errors import InputError
 from grainfront.laws import Law, Truncated
+from grainfront.particles import Region as Domain
 from grainfront.scene import Scene
 
 if TYPE_CHECKING:
@@ -24,6 +25,8 @@ COARSER, FINER = 0, 1
 AREA_POINTS = 500
 # Points of the integral over the size law; the parting is that exact.
 PARTING_POINTS = 1 << 14
+# The law of points that are not in the domain.
+OUTSIDE = -1
 # ASSUME of the volume fraction, before there is a packing; only the first sizes depend on it.
 VOLUME_FRACTION = 0.8
 
@@ -188,10 +191,12 @@ def _areas(scene: Scene, regions: RegionMap) -> tuple[np.ndarray, np.ndarray, np
     n_strata = int(regions.first[-1])
     stratum = assign(regions, x[None, :], y[:, None]).stratum
     law = np.where(stratum < 0, n_strata, stratum)
+    if isinstance(domain, Domain):
+        law[~domain.holds(*np.meshgrid(x, y))] = OUTSIDE
     count = np.array([np.cumsum(law == n, axis=0) for n in range(n_strata + 1)])
     below = np.concatenate([np.zeros((n_strata + 1, 1, columns)), count], axis=1)
     height = domain.y_min + domain.height * np.arange(rows + 1) / rows
-    return x, height, below * domain.area / (rows * columns)
+    return x, height, below * (domain.width * domain.height) / (rows * columns)
 
 
 def _parting(size: Law, finer_share: float) -> float:

@@ -13,6 +13,7 @@ from grainfront.jit import compiling
 from grainfront.laws import Constant, Uniform
 from grainfront.packing import PRUNED_FROM_N_LOC
 from grainfront.particles import Rectangle
+from grainfront.particles import Region as Outlined
 from grainfront.polygons import Polygons
 from grainfront.scene import PackingEffort, Scene, Target
 from grainfront.shapes.database import ShapeDatabase
@@ -20,12 +21,14 @@ from grainfront.shapes.sources import RegularPolygon
 
 
 def compile_kernels(search: str) -> None:
-    """Compile the kernels of a search, one of `api.search`, down to the certificate."""
-    plain = search.removeprefix(api.ARRANGED)
+    """Compile the kernels of a search, one of `api.searches`, down to the certificate."""
+    plain = search.removeprefix(api.ARRANGED).removesuffix(api.OUTLINED)
     scene, database = _smallest_scene(1 if plain == "exhaustive" else PRUNED_FROM_N_LOC)
     if plain == "controlled":
         scene = replace(scene, target=Target(volume_fraction=0.5, tolerance=0.5))
-    if plain != search:
+    if search.endswith(api.OUTLINED):
+        scene = replace(scene, domain=_notched())
+    if search.startswith(api.ARRANGED):
         laws = LocalLaws(size=Constant(0.5))
         scene = replace(scene, arrangement=Arrangement((Region(Circle((2.0, 2.0), 1.0), (laws,)),)))
     packing, _ = api.pack(scene, database, seed=0)
@@ -33,6 +36,13 @@ def compile_kernels(search: str) -> None:
         for one in (packing, api.replace(packing, database)):
             api.certify(one)
             api.measure(scene, database, one)
+
+
+def _notched() -> Outlined:
+    """A square with a notch at its bottom, so that a front must be begun."""
+    nodes = [[0.0, 0.0], [2.0, 1.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]]
+    rings = Polygons.of([np.array(nodes)])
+    return Outlined(0.0, 0.0, 4.0, 4.0, rings, np.array([0, 1]))
 
 
 def _smallest_scene(trials: int) -> tuple[Scene, ShapeDatabase]:

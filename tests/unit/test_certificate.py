@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 from grainfront.certificate import certify
 from grainfront.errors import InputError
 from grainfront.geometry.exact import is_convex, is_simple, orientation
-from grainfront.geometry.outlines import interiors_meet
-from grainfront.particles import Rectangle
+from grainfront.geometry.outlines import interiors_meet, lies_inside
+from grainfront.particles import Rectangle, Region
 
 UNIT_SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
 ULP = 2.0**-52
@@ -176,6 +176,53 @@ def test_walls_are_exact(packing_of):
         crossing[corner] = value
         certificate = certify(packing_of([0.5 * UNIT_SQUARE + 0.25, crossing], domain))
         assert certificate.particles_across_wall.tolist() == [1]
+
+
+FRAME = shapely.box(0, 0, 9, 9).difference(shapely.Polygon([(3, 3), (6, 3.5), (6, 6), (4, 6)]))
+
+
+def test_the_boundary_of_a_region_is_exact(packing_of):
+    """A slanted wall of the hole, a node on it, and the same one unit further."""
+    along = np.array([[1.0, 1.0], [6.0, 1.0], [6.0, 3.5], [3.0, 3.0]])
+    assert certify(packing_of([along], Region.of(FRAME))).holds
+    for node, value in ((2, np.nextafter(3.5, 4.0)), (3, np.nextafter(3.0, 4.0))):
+        crossing = along.copy()
+        crossing[node, 1] = value
+        certificate = certify(packing_of([along * 0.5, crossing], Region.of(FRAME)))
+        assert certificate.particles_across_wall.tolist() == [1]
+
+
+def test_whoever_is_all_in_a_hole_or_between_parts_is_outside(packing_of):
+    in_hole = 0.1 * UNIT_SQUARE + 5.0
+    assert certify(packing_of([in_hole], Region.of(FRAME))).across_wall == 1
+    parts = shapely.MultiPolygon([shapely.box(0, 0, 2, 2), shapely.box(4, 0, 6, 2)])
+    squares = [UNIT_SQUARE + [x, 0.5] for x in (0.5, 2.5, 4.5, 1.5)]
+    certificate = certify(packing_of(squares, Region.of(parts)))
+    assert certificate.particles_across_wall.tolist() == [1, 3]
+
+
+def test_an_outline_may_reach_round_a_corner_of_its_region(packing_of):
+    """Its hull crosses the boundary, the outline does not."""
+    ell = np.array([[0, 0], [9, 0], [9, 3], [3, 3], [3, 9], [0, 9]], dtype=float)
+    region = Region.of(shapely.Polygon(ell))
+    assert certify(packing_of([ell], region)).holds
+    inner = ell.copy()
+    inner[3] = np.nextafter(3.0, 4.0)
+    assert certify(packing_of([inner], region)).across_wall == 1
+
+
+@EXAMPLES
+@given(lattice, lattice)
+def test_inside_a_region_is_decided_as_overlay_does(packing_of, first, second):
+    """On a small lattice the area of what sticks out is far above rounding."""
+    polygon, ring = np.array(first, dtype=float), np.array(second, dtype=float)
+    if not (simple(polygon) and simple(ring)):
+        return
+    region = Region.of(shapely.Polygon(ring))
+    outside = shapely.difference(shapely.Polygon(polygon), region.to_shapely()).area > 1e-9
+    assert certify(packing_of([polygon], region)).holds == (not outside)
+    edges = np.stack([ring, np.roll(ring, -1, axis=0)], axis=1)
+    assert lies_inside(polygon, edges) == (not outside)
 
 
 @EXAMPLES

@@ -10,10 +10,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import shapely
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection, PolyCollection
 
 from grainfront import figures
 from grainfront.errors import InputError
+from grainfront.particles import Cell, Region
 from grainfront.polygons import Polygons
 from grainfront.statistics import Contacts, Distribution, OrientationRose
 
@@ -126,6 +129,43 @@ def test_the_zoom_shows_the_hulls_behind_the_outlines():
 def test_any_domain_is_drawn(tmp_path, columns, rows):
     figures.save_png(packing_figure(columns, rows), tmp_path / "packing.png")
     assert (tmp_path / "packing.png").stat().st_size > 10_000
+
+
+def test_what_is_no_part_of_the_domain_is_shaded():
+    """Outside the outer ring and in the hole, and nowhere else."""
+    ring = shapely.box(0, 0, 12, 9).difference(shapely.box(3, 3, 5, 5))
+    figure = packing_figure(domain=Region.of(ring))
+    outside = figure.axes[0].patches[0]
+    for artist in (*figure.axes[0].collections, *figure.axes[0].patches):
+        artist.set_visible(artist is outside)
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    pixels = np.asarray(canvas.buffer_rgba())[::-1]
+    for point, shaded in (((-0.06, 4), True), ((1, 4), False), ((4, 4), True), ((8, 4), False)):
+        column, row = figure.axes[0].transData.transform(point).astype(int)
+        assert (pixels[row, column, :3] == 0xC8).all() == shaded
+    x_min, x_max = figure.axes[0].get_xlim()
+    assert x_min < 0.0 and x_max > 12.0
+
+
+def test_a_cell_is_drawn_with_what_reaches_over_its_border():
+    figure = packing_figure(domain=Cell(0.2, 0.0, 12.0, 9.0, True))
+    nodes = synthetic.packing(12, 9, np.random.default_rng(0), spikes=0.3).polygons.nodes
+    assert figure.axes[0].get_xlim()[0] == nodes[:, 0].min() < 0.2
+    (border, _) = figure.axes[0].patches
+    assert (border.get_x(), border.get_width()) == (0.2, 11.8)
+
+
+def test_branches_of_a_cell_end_at_images():
+    packing = synthetic.packing(3, 3, np.random.default_rng(0))
+    packing = replace(packing, domain=Cell(0.0, 0.0, 3.0, 3.0, False))
+    pairs, position = np.array([[0, 2]]), np.array([[packing.x[0] - 0.5, packing.y[0]]])
+    none = np.empty(0, dtype=np.int64)
+    contacts = Contacts(pairs, position, np.array([[-1.0, 0.0]]), none, none)
+    figure = figures.contacts(packing, contacts, np.ones(1), 2 / 9, length_unit="mm")
+    (lines,) = (c for c in figure.axes[1].collections if isinstance(c, LineCollection))
+    ends = {tuple(segment[[0, 2], 0]) for segment in lines.get_segments()}
+    assert ends == {(packing.x[0], packing.x[2] - 3.0)}
 
 
 def test_particles_of_one_size_are_drawn(tmp_path):

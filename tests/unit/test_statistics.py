@@ -10,12 +10,13 @@ from hypothesis import strategies as st
 from scipy.spatial import Voronoi
 
 from grainfront.errors import InputError
-from grainfront.particles import Rectangle
+from grainfront.particles import Cell, Rectangle, Region
 from grainfront.statistics import (
     CONTACT_TOLERANCE,
     N_BIN,
     compare_with_law,
     find_contacts,
+    find_rooms,
     l2_error,
     measure,
     orientation_rose,
@@ -261,3 +262,56 @@ def test_an_empty_packing_is_refused(packing_of):
 def test_shares_are_of_all_values():
     compared = compare_with_law(np.array([0.1, 0.2, 5.0]), np.array([0.0, 1.0]), np.ones(1))
     assert compared.shares.tolist() == [2 / 3]
+
+
+def test_fractions_of_a_region_are_those_of_its_area(packing_of):
+    """A lattice of small squares fills a ring by a quarter, wherever the bulk is cut."""
+    hole = shapely.box(30, 30, 50, 50)
+    region = Region.of(shapely.box(0, 0, 80, 80).difference(hole))
+    squares = [
+        shifted(0.5 * UNIT_SQUARE, i + 0.5, j + 0.5)
+        for i in range(80)
+        for j in range(80)
+        if not hole.covers(shapely.Point(i + 0.5, j + 0.5))
+    ]
+    packing = packing_of(squares, region)
+    assert region.area == 6000.0
+    assert volume_fraction(packing) == pytest.approx(0.25)
+    assert volume_fraction_bulk(packing) == pytest.approx(0.25, rel=0.01)
+
+
+def test_slices_of_a_region_and_of_a_cell(packing_of):
+    """Between lines, particles and domain count with what lies there; cells begin again."""
+    ring = shapely.box(0, 0, 6, 6).difference(shapely.box(2, 2, 4, 4))
+    packing = packing_of([shifted(UNIT_SQUARE, 1, 3)], Region.of(ring))
+    assert volume_fraction_between(packing, 0, 1.0, 3.0) == pytest.approx(0.5 / 10)
+    assert volume_fraction_between(packing, 1, 2.5, 3.5) == pytest.approx(1.0 / 4)
+    for along_y in (False, True):
+        packing = packing_of(
+            [shifted(UNIT_SQUARE, 0, 4)], Cell(0.0, 0.0, 6.0, 4.25, along_y), y=np.array([4.0])
+        )
+        assert volume_fraction_between(packing, 0, 5.0, 6.0) == pytest.approx(0.5 / 4.25)
+        assert volume_fraction_between(packing, 0, 0.0, 1.0) == pytest.approx(0.5 / 4.25)
+        above = 0.25 / 6 if along_y else 0.0
+        assert volume_fraction_between(packing, 1, 0.0, 1.0) == pytest.approx(above)
+
+
+def test_contacts_with_the_rings_of_a_region(packing_of):
+    """Squares touch the outer ring, the ring of the hole, both or neither."""
+    frame = shapely.box(0, 0, 9, 9).difference(shapely.box(1, 3, 6, 6))
+    squares = [
+        shifted(UNIT_SQUARE, *centre) for centre in ((0.5, 4.5), (6.5, 4.5), (4, 0.5), (8, 8))
+    ]
+    contacts = find_contacts(packing_of(squares, Region.of(frame)))
+    found = list(zip(contacts.wall_particle.tolist(), contacts.wall.tolist(), strict=True))
+    assert found == [(0, 0), (0, 1), (1, 1), (2, 0)]
+
+
+def test_a_room_without_particles_is_told(packing_of):
+    """Two rooms joined by a corridor that is narrower than the particle, which is in one."""
+    rooms = [shapely.box(0, 0, 4, 4), shapely.box(10, 0, 13, 4), shapely.box(4, 1, 10, 1.5)]
+    packing = packing_of([shifted(UNIT_SQUARE, 2, 2)], Region.of(shapely.union_all(rooms)))
+    found = find_rooms(packing)
+    corners = 8 * (0.25 - np.pi / 16)  # of the rooms, where a disc of radius 1/2 does not fit
+    assert found.area.sum() == pytest.approx(28 - corners, rel=0.005)
+    assert found.empty_area == pytest.approx(12 - corners / 2, rel=0.005)

@@ -47,15 +47,10 @@ def files_of_shapes(scene):
     return [path for path in paths if not path.startswith(SHIPPED)]
 
 
-def files_of_zones(scene):
-    """The images and files that the zones of a scene come from."""
-    return sorted(scene.arrangement.files) if scene.arrangement else []
-
-
 def read_scene(name):
     """A scene, checked; InputError where it is at fault or names files that Snakemake cannot take."""
     scene = api.load_scene(scene_file(name))
-    for path in files_of_shapes(scene) + files_of_zones(scene):
+    for path in [*files_of_shapes(scene), *scene.zone_files]:
         if "{" in path or "}" in path:
             raise InputError(
                 f"{scene_file(name)}: the file {path!r} must have a name without braces, "
@@ -82,8 +77,9 @@ def image_files(wildcards):
     return files_of_shapes(SCENES[wildcards.scene])
 
 
-def arrangement_files(wildcards):
-    return files_of_zones(SCENES[wildcards.scene])
+def zone_files(wildcards):
+    """The images and files that the domain and the regions of a scene come from."""
+    return SCENES[wildcards.scene].zone_files
 
 
 def kinds_of(scene):

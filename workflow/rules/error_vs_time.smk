@@ -31,6 +31,7 @@ rule error_vs_time:
 # All axes of a scene; takes all cores, so that nothing beside it disturbs the times.
 rule error_vs_time_record:
     input:
+        zone_files,
         database="results/{scene}/shapes.nc",
     output:
         record="results/{scene}/error_vs_time.nc",

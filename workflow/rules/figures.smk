@@ -33,7 +33,7 @@ rule photograph:
 # Signed distances to the zones of the regions.
 rule arrangement_picture:
     input:
-        arrangement_files,
+        zone_files,
     output:
         picture=pictures_of("arrangement"),
     params:

@@ -6,7 +6,7 @@ rule kernels:
     output:
         compiled=touch("results/.{search}.compiled"),
     wildcard_constraints:
-        search="(arranged_)?(exhaustive|pruned|controlled)",
+        search="(arranged_)?(exhaustive|pruned|controlled)(_outlined)?",
     # the longest of the first jobs: the shapes are ready before it ends
     priority: 1
     params:

@@ -9,14 +9,15 @@ def one_of(names):
 
 
 def kernels_of(wildcards):
-    """The kernels of the search that a scene needs."""
-    return f"results/.{api.search(SCENES[wildcards.scene])}.compiled"
+    """The kernels of the searches that a scene needs."""
+    searches = api.searches(SCENES[wildcards.scene])
+    return [f"results/.{search}.compiled" for search in searches]
 
 
 # One packing a seed; the run time has a file of its own, so that equal input gives equal bytes.
 rule packing:
     input:
-        arrangement_files,
+        zone_files,
         database="results/{scene}/shapes.nc",
         compiled=ancient(kernels_of),
     output:
@@ -51,7 +52,7 @@ def contour_of(wildcards):
 # The same to a target volume fraction; how it was reached has a file of its own.
 rule packing_to_target:
     input:
-        arrangement_files,
+        zone_files,
         unpack(contour_of),
         database="results/{scene}/shapes.nc",
         compiled=ancient(kernels_of),

@@ -19,7 +19,7 @@ rule contacts:
 # All seeds of a scene; fails where the certificate of one does not hold.
 rule statistics:
     input:
-        arrangement_files,
+        zone_files,
         database="results/{scene}/shapes.nc",
         packings=lambda w: [
             f"results/{w.scene}/{seed}/{KINDS[w.kind]}.nc"

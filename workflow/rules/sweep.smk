@@ -51,6 +51,7 @@ def sweep_chunks(wildcards):
 # a killed run resumes after the packings that are finished.
 rule sweep:
     input:
+        zone_files,
         database="results/{scene}/shapes.nc",
         compiled=ancient(sweep_kernels),
     output:
@@ -71,6 +72,7 @@ rule sweep:
 rule contour:
     input:
         sweep_chunks,
+        zone_files,
         database="results/{scene}/shapes.nc",
         compiled=ancient(sweep_kernels),
     output:

@@ -23,7 +23,8 @@ from grainfront.figures.style import (
     panel_letter,
     styled,
 )
-from grainfront.particles import Packing
+from grainfront.figures.walls import draw_walls, with_images
+from grainfront.particles import Cell, Packing
 
 if TYPE_CHECKING:
     from grainfront.statistics import Contacts
@@ -66,19 +67,34 @@ def _draw_shares(axes: Axes, contact_shares: np.ndarray, coordination_number: fl
 
 def _draw_network(axes: Axes, packing: Packing, contacts: Contacts, length_unit: str) -> None:
     window = zoom_window(packing)
-    inside = inside_window(packing, window)
-    grains = [packing.polygons.polygon(i) for i in inside.tolist()]
+    whole = with_images(packing)
+    grains = [whole.polygons.polygon(i) for i in inside_window(whole, window).tolist()]
     axes.add_collection(
         PolyCollection(grains, facecolors=GRAIN, edgecolors=GRAIN_EDGE, linewidths=0.3),
         autolim=False,
     )
-    seen = np.isin(contacts.pairs, inside).any(axis=1)
-    centres = np.stack([packing.x, packing.y], axis=1)
-    first, second = centres[contacts.pairs[seen].T]
-    points = contacts.position[seen]
-    branches = np.stack([first, points, second], axis=1)
+    branches = _branches(packing, contacts)
+    low, high = branches.min(axis=1), branches.max(axis=1)
+    seen = (high >= [window.x_min, window.y_min]) & (low <= [window.x_max, window.y_max])
+    branches = branches[seen.all(axis=1)]
+    points = branches[:, 1]
     axes.add_collection(
         LineCollection(list(branches), colors=BRANCH, linewidths=0.6), autolim=False
     )
     axes.scatter(points[:, 0], points[:, 1], s=4, color=PRESCRIBED, linewidths=0, zorder=3)
+    draw_walls(axes, packing.domain, window)
     map_axes(axes, window, length_unit)
+
+
+def _branches(packing: Packing, contacts: Contacts) -> np.ndarray:
+    """First centre, contact and second centre of each pair, (n, 3, 2), and those of its images."""
+    centres = np.stack([packing.x, packing.y], axis=1)
+    first, second = centres[contacts.pairs.T]
+    points, domain = contacts.position, packing.domain
+    if not isinstance(domain, Cell):
+        return np.stack([first, points, second], axis=1)
+    # the second particle may touch by an image: the one that is there
+    period = np.array([domain.width, domain.height])
+    second = second + period * np.rint((points - second) / period)
+    own = np.stack([first, points, second], axis=1)
+    return np.concatenate([own + shift for shift in domain.shifts])

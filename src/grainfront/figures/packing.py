@@ -22,10 +22,14 @@ from grainfront.figures.style import (
     panel_letter,
     styled,
 )
-from grainfront.particles import Packing, Rectangle
+from grainfront.figures.walls import draw_walls, middle_of, window_of, with_images
+from grainfront.particles import Cell, Packing, Rectangle
 
 GRAINS_ACROSS_ZOOM = 8
 """Edge of the zoom in mean circumscribed diameters: few enough to see every outline."""
+
+PALE = 0.45
+"""Opacity of the images of particles."""
 
 
 @styled
@@ -38,24 +42,29 @@ def packing(
     round them. `volume_fractions` are those of the hulls and, where there are any, the outlines.
     """
     shown = outlines or hulls
-    figure = Figure(figsize=(WIDTH, _height(shown.domain)))
+    everything = window_of(shown)
+    figure = Figure(figsize=(WIDTH, _height(everything)))
     whole, zoom = figure.subplots(1, 2, width_ratios=(1, 1))
     colours = Normalize(*_colour_limits(shown.size))
     window = zoom_window(shown)
 
     artist = _draw(whole, shown, colours, edge=0.0)
-    map_axes(whole, shown.domain, length_unit)
+    draw_walls(whole, shown.domain, everything)
+    map_axes(whole, everything, length_unit)
     whole.add_patch(_outline_of(window, linewidth=0.9))
     panel_letter(whole, "a", f"{shown.x.size:,} particles, $\\phi$ = {volume_fractions[-1]:.4f}")
 
+    _draw_images(zoom, shown, colours, window)
     inside = inside_window(shown, window)
     if outlines is not None:
         _draw_hulls(zoom, hulls, inside)
     _draw(zoom, shown, colours, edge=0.3, chosen=inside)
+    draw_walls(zoom, shown.domain, everything)
     map_axes(zoom, window, length_unit)
     zoom.spines[:].set_color(WINDOW)
     hulls_behind = f"outlines in their hulls (hulls: $\\phi$ = {volume_fractions[0]:.4f})"
-    panel_letter(zoom, "b", "closer" if outlines is None else hulls_behind)
+    closer = "closer, images paler" if isinstance(shown.domain, Cell) else "closer"
+    panel_letter(zoom, "b", closer if outlines is None else hulls_behind)
 
     bar = figure.colorbar(artist, ax=[whole, zoom], location="bottom", aspect=60, shrink=0.6,
                           pad=0.02, extend="both" if np.ptp(shown.size) else "neither")  # fmt: skip
@@ -65,15 +74,14 @@ def packing(
 
 
 def zoom_window(packing: Packing) -> Rectangle:
-    """A square in the middle of the domain, a few grains across, never larger than the domain."""
+    """A square about the middle of the domain, a few grains across, no larger than the domain."""
     domain = packing.domain
     edge = min(
         GRAINS_ACROSS_ZOOM * 2 * float(np.mean(packing.circumradius)) if packing.x.size else np.inf,
         domain.width,
         domain.height,
     )
-    x = domain.x_min + (domain.width - edge) / 2
-    y = domain.y_min + (domain.height - edge) / 2
+    x, y = (middle - edge / 2 for middle in middle_of(domain))
     return Rectangle(x, y, x + edge, y + edge)
 
 
@@ -119,6 +127,15 @@ def _draw(
     )
     axes.add_collection(artist, autolim=False)
     return artist
+
+
+def _draw_images(axes: Axes, packing: Packing, colours: Normalize, window: Rectangle) -> None:
+    """Draw, paler, the images of the particles of a cell that repeats itself."""
+    if isinstance(packing.domain, Cell):
+        whole = with_images(packing)
+        seen = inside_window(whole, window)
+        images = _draw(axes, whole, colours, edge=0.3, chosen=seen[seen >= packing.x.size])
+        images.set_alpha(PALE)
 
 
 def _draw_hulls(axes: Axes, hulls: Packing, chosen: np.ndarray) -> None:

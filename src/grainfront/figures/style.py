@@ -21,6 +21,7 @@ WIDTH = 180 * MM  # two columns of a journal page
 
 INK = "#222222"
 GRAIN = "#e6e2d8"
+OUTSIDE = "#c8c8c8"  # what is no part of the domain
 GRAIN_EDGE = "#a09a8a"
 HULL = "#f6b8a0"  # seen between grains of any colour of the map of sizes, and on white
 WINDOW = "#d00000"

@@ -37,6 +37,8 @@ class Attribute:
 
     type: str
     description: str
+    optional: bool = False
+    """True where only some scenes have it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,7 +128,12 @@ PACKING = Contract(
         **VERSION,
         **SEED,
         **SCENE,
-        "domain": Attribute("string", "the domain as WKT, exact to the last bit"),
+        "domain": Attribute(
+            "string", "the domain as WKT, exact to the last bit; a MULTIPOLYGON if no rectangle"
+        ),
+        "periodic": Attribute(
+            "string", "axes along which the domain repeats itself: x, or x y", optional=True
+        ),
         "volume_fraction": Attribute("number", "area of the particles over area of the domain"),
         "left_over": Attribute("integer", "particles drawn that found no place"),
     },
@@ -187,7 +194,10 @@ CONTACTS = Contract(
             ("contact",),
             type="int64",
             particle_a=("1", "index of the first particle, the smaller one"),
-            particle_b=("1", "index of the second particle"),
+            particle_b=(
+                "1",
+                "index of the second particle, which may touch by an image",
+            ),
         ),
         **_of(
             ("contact",),
@@ -200,7 +210,11 @@ CONTACTS = Contract(
             ("wall_contact",),
             type="int64",
             wall_particle=("1", "index of the particle that touches the wall"),
-            wall=("1", "the wall: 0 left, 1 bottom, 2 right, 3 top"),
+            wall=(
+                "1",
+                "the wall: 0 left, 1 bottom, 2 right, 3 top; of a domain given as MULTIPOLYGON, "
+                "its rings in their order from 0 on",
+            ),
         ),
     },
     attributes={**VERSION, **SEED, **SCENE},
@@ -246,11 +260,15 @@ SEED_FRACTIONS = _of(
     finite=False,
     volume_fraction=("1", "area of the particles over area of the domain"),
     volume_fraction_bulk=("1", "volume fraction away from the walls"),
+    empty_area=(AREA, "area of rooms of the domain, islands or beyond necks, that stayed empty"),
     void_ratio=("1", "(1 - volume fraction) over volume fraction"),
     coordination_number=("1", "2 x contact pairs / particles"),
-    size_correlation_x=("1", "correlation of size with x"),
-    size_correlation_y=("1", "correlation of size with y"),
-    size_correlation_centre=("1", "correlation of size with the distance to the centre"),
+    size_correlation_x=("1", "correlation of size with x, NaN where that repeats itself"),
+    size_correlation_y=("1", "correlation of size with y, NaN where that repeats itself"),
+    size_correlation_centre=(
+        "1",
+        "correlation of size with the distance to the centre, NaN where the domain repeats itself",
+    ),
     size_correlation_noise_level=("1", "standard deviation of these if size and place are random"),
 )
 

@@ -18,6 +18,7 @@ def json_schema(contract: Contract) -> Json:
     fixed = {"Conventions": {"const": CONVENTIONS}, "title": {"const": contract.title}}
     free = {name: {"type": a.type, "description": a.description}
             for name, a in contract.attributes.items()}  # fmt: skip
+    free_optional = {name for name, a in contract.attributes.items() if a.optional}
     groups = {f"^{name[:-1]}": free.pop(name) for name in list(free) if name.endswith("*")}
     dimensions = {name: {"type": "integer", "minimum": 0, "description": description}
                   for name, description in contract.dimensions.items()}  # fmt: skip
@@ -31,7 +32,7 @@ def json_schema(contract: Contract) -> Json:
             {
                 "dimensions": _closed(dimensions, optional=set(dimensions) - always),
                 "variables": _closed(variables, optional=optional),
-                "attributes": _closed({**fixed, **free}, groups=groups),
+                "attributes": _closed({**fixed, **free}, optional=free_optional, groups=groups),
             }
         ),
     }
@@ -95,5 +96,6 @@ def cdl(contract: Contract) -> str:
     lines += [f'\t\t:Conventions = "{CONVENTIONS}" ;', f'\t\t:title = "{contract.title}" ;']
     for name, attribute in contract.attributes.items():
         quote = '"' if attribute.type == "string" else ""
-        lines.append(f"\t\t:{name} = {quote}<{attribute.description}>{quote} ;")
+        note = " // only where the scene has it" if attribute.optional else ""
+        lines.append(f"\t\t:{name} = {quote}<{attribute.description}>{quote} ;{note}")
     return "\n".join([*lines, "}", ""])

@@ -5,6 +5,7 @@ Polygons are a geometry container of the CF conventions (CF-1.9, section 7.5), r
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -13,7 +14,7 @@ import numpy as np
 from grainfront.errors import InputError
 from grainfront.files.contract import CONTACTS, PACKING, SHAPES
 from grainfront.files.dataset import Path, read_dataset, write_dataset
-from grainfront.particles import Packing, Rectangle
+from grainfront.particles import Cell, Packing, Rectangle, Region
 from grainfront.polygons import Polygons
 
 if TYPE_CHECKING:
@@ -23,6 +24,9 @@ if TYPE_CHECKING:
 PARTICLE_FIELDS = (
     "x", "y", "size", "aspect_ratio", "orientation", "area", "circumradius", "shape"
 )  # fmt: skip
+
+# How the attribute `periodic` tells of a cell: that repeats itself along x alone, and along y too.
+PERIODIC = ("x", "x y")
 
 
 def write_packing(
@@ -41,7 +45,7 @@ def write_packing(
     fields = {name: getattr(packing, name) for name in PARTICLE_FIELDS}
     if packing.region is not None:
         fields["region"] = packing.region
-    attributes = {
+    attributes: dict[str, Any] = {
         "scene": scene_text,
         "seed": seed,
         "length_unit": length_unit,
@@ -49,6 +53,8 @@ def write_packing(
         "domain": _to_wkt(packing.domain),
         "left_over": packing.left_over,
     }
+    if isinstance(packing.domain, Cell):
+        attributes["periodic"] = PERIODIC[packing.domain.along_y]
     write_dataset(path, PACKING, _closed_rings(packing.polygons) | fields, attributes)
 
 
@@ -59,7 +65,7 @@ def read_packing(path: Path) -> Packing:
     """
     arrays, attributes = read_dataset(path, PACKING)
     return Packing(
-        domain=_from_wkt(path, attributes["domain"]),
+        domain=_domain(path, attributes),
         polygons=_open_rings(path, arrays),
         left_over=attributes["left_over"],
         region=arrays.get("region"),
@@ -191,15 +197,47 @@ def _within(index: np.ndarray, size: int) -> bool:
 
 def _to_wkt(domain: Rectangle) -> str:
     """The domain as WKT; Python's shortest digits give every float back exactly."""
-    x0, y0, x1, y1 = (float(v) for v in (domain.x_min, domain.y_min, domain.x_max, domain.y_max))
-    ring = ((x0, y0), (x1, y0), (x1, y1), (x0, y1), (x0, y0))
-    return f"POLYGON (({', '.join(f'{x!r} {y!r}' for x, y in ring)}))"
+    if isinstance(domain, Region):
+        polygons = (
+            f"({', '.join(_ring_to_wkt(domain.rings.polygon(r)) for r in range(first, last))})"
+            for first, last in itertools.pairwise(domain.parts.tolist())
+        )
+        return f"MULTIPOLYGON ({', '.join(polygons)})"
+    x0, y0, x1, y1 = domain.x_min, domain.y_min, domain.x_max, domain.y_max
+    return f"POLYGON ({_ring_to_wkt(np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)]))})"
+
+
+def _domain(path: Path, attributes: Mapping[str, Any]) -> Rectangle:
+    domain = _from_wkt(path, attributes["domain"])
+    if "periodic" not in attributes:
+        return domain
+    if isinstance(domain, Region) or attributes["periodic"] not in PERIODIC:
+        raise InputError(
+            f"{path}: periodic is {attributes['periodic']!r}, but must be "
+            f"{' or '.join(map(repr, PERIODIC))}, and the domain a rectangle"
+        )
+    along_y = attributes["periodic"] == PERIODIC[True]
+    return Cell(domain.x_min, domain.y_min, domain.x_max, domain.y_max, along_y)
+
+
+def _ring_to_wkt(ring: np.ndarray) -> str:
+    nodes = [*ring.tolist(), ring[0].tolist()]
+    return f"({', '.join(f'{x!r} {y!r}' for x, y in nodes)})"
 
 
 def _from_wkt(path: Path, text: str) -> Rectangle:
+    """The rectangle that `_to_wkt` wrote as a polygon, or the region it wrote as a multipolygon."""
     import shapely
 
     try:
-        return Rectangle(*shapely.from_wkt(text).bounds)
+        domain = shapely.from_wkt(text)
     except shapely.GEOSException as error:
         raise InputError(f"{path}: the domain is no WKT polygon ({error})") from error
+    if domain.geom_type == "MultiPolygon":
+        try:
+            return Region.of(domain)
+        except InputError as error:
+            raise InputError(f"{path}: {error}") from None
+    if domain.geom_type != "Polygon" or domain.is_empty:
+        raise InputError(f"{path}: the domain is {text:.40}, but must be a polygon with an area")
+    return Rectangle(*domain.bounds)

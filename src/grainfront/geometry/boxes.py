@@ -25,3 +25,9 @@ def close_pairs(boxes: np.ndarray, distance: float) -> np.ndarray:
     kept = first < second
     pairs = np.column_stack([first[kept], second[kept]]).astype(np.int64)
     return pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))]
+
+
+def pairs_between(boxes: np.ndarray, others: np.ndarray) -> np.ndarray:
+    """Pairs (i, j) of a box and one of the others that meet, touching ones too, (n_pairs, 2)."""
+    tree = shapely.STRtree(shapely.box(*others.T))
+    return np.column_stack(tree.query(shapely.box(*boxes.T))).astype(np.int64)

@@ -185,6 +185,30 @@ def hull_contains(hull, x, y):
 
 
 @kernel
+def hull_surrounds(hull, x, y):
+    """Whether the point lies in the interior of the convex polygon `hull`, shape (n, 2)."""
+    for i in range(hull.shape[0]):
+        if orientation(hull[i - 1, 0], hull[i - 1, 1], hull[i, 0], hull[i, 1], x, y) <= 0:
+            return False
+    return True
+
+
+@kernel
+def edges_surround(edges, x, y):
+    """Whether a point that is on no edge lies inside the rings that edges form: even-odd rule.
+
+    Edge i runs from `edges[2 i]` to `edges[2 i + 1]`.
+    """
+    inside = False
+    for i in range(0, edges.shape[0], 2):
+        px, py, qx, qy = edges[i, 0], edges[i, 1], edges[i + 1, 0], edges[i + 1, 1]
+        if (py > y) != (qy > y):
+            left = orientation(px, py, qx, qy, x, y) > 0
+            inside = inside != (left == (qy > py))
+    return inside
+
+
+@kernel
 def _separated_by_edge_of(a, b):
     exact = False
     inside = 0
@@ -211,6 +235,7 @@ def _separated_by_edge_of(a, b):
 def hulls_disjoint(a, b):
     """Whether two convex polygons, shapes (n, 2) and (m, 2), share no interior point.
 
+    One of them may be a segment, of two nodes, which the other's interior then is to be free of.
     They share none if and only if the line of some edge of one has the whole other polygon on its
     closed outer side. Returns that, and whether the filter had to be helped by exact arithmetic.
     """

@@ -26,8 +26,42 @@ def interiors_meet(a: np.ndarray, b: np.ndarray) -> bool:
     return _enters(edges_a, edges_b) or _enters(edges_b, edges_a)
 
 
+def lies_inside(polygon: np.ndarray, boundary: np.ndarray) -> bool:
+    """Whether a simple polygon, (n, 2), lies inside the region that edges, (m, 2, 2), bound.
+
+    It does if no piece of the boundary lies in its interior, and one point of its interior is
+    inside. Touching is allowed.
+    """
+    edges = _edges(polygon)
+    around = [(_point(p), _point(q)) for p, q in boundary.tolist()]
+    for edge in around:
+        for middle in _middles_of_pieces(edge, edges):
+            if not any(_is_on(middle, e) for e in edges) and _is_inside(middle, edges):
+                return False
+    return _is_inside(_interior_point(edges), around)
+
+
+def _interior_point(edges: list[Edge]) -> Point:
+    """Half way from the middle of the first edge to the boundary opposite of it."""
+    (px, py), (qx, qy) = edges[0]
+    middle = (px + qx) / 2, (py + qy) / 2
+    inward = py - qy, qx - px
+    nearest = min(
+        t
+        for p, q in edges[1:]
+        if (turn := _cross(inward, _minus(q, p))) != 0
+        and 0 <= _cross(_minus(p, middle), inward) / turn <= 1
+        and (t := _cross(_minus(p, middle), _minus(q, p)) / turn) > 0
+    )
+    return middle[0] + inward[0] * nearest / 2, middle[1] + inward[1] * nearest / 2
+
+
+def _point(coordinates: list[float]) -> Point:
+    return Fraction(coordinates[0]), Fraction(coordinates[1])
+
+
 def _edges(polygon: np.ndarray) -> list[Edge]:
-    points = [(Fraction(x), Fraction(y)) for x, y in polygon.tolist()]
+    points = [_point(node) for node in polygon.tolist()]
     return list(zip(points, points[1:] + points[:1], strict=True))
 
 

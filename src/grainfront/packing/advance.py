@@ -16,11 +16,12 @@ from grainfront.packing.arranged import (
 )
 from grainfront.packing.control import EFFORT_SUM, account, effort_now, spend
 from grainfront.packing.exhaustive import choose_exhaustively
-from grainfront.packing.front import bury, front_length, move_gap
+from grainfront.packing.front import bury, front_length, member_at, move_gap, position_of
 from grainfront.packing.grid import insert
+from grainfront.packing.obstacles import BOTH, FORMER, LATTER, join_obstacle, touched_of_pair
 from grainfront.packing.orientations import draw_orientations, turn_and_inflate
 from grainfront.packing.search import choose_lowest
-from grainfront.packing.state import RIGHT_WALL
+from grainfront.packing.state import RIGHT_WALL, Trial
 from grainfront.packing.trials import RESOLVED, TOO_HIGH
 
 # Particles that wait at the top for a lower place while others are tried: enough for one giant
@@ -101,6 +102,22 @@ def pass_on(front, queues, counters):
         end_row(front, queues, counters)
     else:
         move_gap(front, front.ends[0] + 1)
+
+
+@inlined
+def turn_at_obstacle(front, placed, queues, counters, touched, particle):
+    """Go on beside a particle that touches an obstacle instead of one of its pair.
+
+    Towards the obstacle where that leads down, so that the front reaches all that lies below it;
+    elsewhere rows end at walls.
+    """
+    position = position_of(front, particle)
+    partner = member_at(front, position - 1 if touched == FORMER else position + 1)
+    leads_down = placed.disc[particle, 1] < placed.disc[partner, 1]
+    if touched == LATTER and leads_down:
+        move_gap(front, position)
+    elif touched == FORMER and not leads_down:
+        pass_on(front, queues, counters)
 
 
 @inlined
@@ -240,6 +257,13 @@ def advance(
                 pass_over(front, queues, counters, i, k, y)
             at_right_wall = k == front_length(front) - 1
             number = counters[N_PLACED]
+            trial = Trial(angle * particle[0], particle[0], angle, particle[1], particle[2])
+            touched = touched_of_pair(
+                domain.obstacles, front, placed, grid, domain, trials, trial, i, k
+            )
+            i, k = join_obstacle(
+                domain.obstacles, front, placed, trial, number, x, y, i, k, touched
+            )
             if control is not None:
                 account(control, supply, front, placed, domain, source, number, x, y, i, k)
                 control.tally[EFFORT_SUM] += effort
@@ -251,7 +275,9 @@ def advance(
             counters[PLACED_IN_ROW] += 1
             queues.n_placed[law] += 1
             take_from_waiting(queues, law, turn)
-            if at_right_wall:
+            if touched != BOTH:
+                turn_at_obstacle(front, placed, queues, counters, touched, number)
+            elif at_right_wall:
                 end_row(front, queues, counters)
             begin_turn(front, placed, domain, arrangement, queues, counters, n_loc)
             continue

@@ -9,9 +9,18 @@ import math
 
 from grainfront.jit import inlined
 from grainfront.packing.arranged import admitted
-from grainfront.packing.front import front_length
+from grainfront.packing.front import front_length, member_at
+from grainfront.packing.obstacles import OVERLAPPING, near_obstacles, settle
 from grainfront.packing.state import Trial
-from grainfront.packing.trials import BLOCKED, RESOLVED, TOO_HIGH, resolve
+from grainfront.packing.trials import (
+    BLOCKED,
+    BYPASSED,
+    NOTHING,
+    RESOLVED,
+    TOO_HIGH,
+    contact_of_pair,
+    overlapped,
+)
 
 
 @inlined
@@ -35,6 +44,39 @@ def lower(best, trial):
     if trial[2] == best[2] and trial[3:] < best[3:]:
         return trial
     return best
+
+
+@inlined
+def resolve(front, placed, grid, domain, trials, trial, i, k):
+    """Widen the pair (i, k) until the trial in contact with it overlaps nothing (paper, Fig. 9).
+
+    Returns (RESOLVED, x, y, i, k), or BLOCKED where no place is found, TOO_HIGH where it would
+    cross the top.
+    """
+    while True:
+        a = member_at(front, i)
+        b = member_at(front, k)
+        if near_obstacles(domain.obstacles, placed, domain, trial.circumradius, a, b):
+            status, x, y, position, _ = settle(
+                domain.obstacles, front, placed, grid, domain, trials, trial, i, k, math.inf
+            )
+            if status != OVERLAPPING:
+                return status, x, y, i, k
+        else:
+            found, x, y = contact_of_pair(placed, domain, trials, trial, a, b)
+            if not found:
+                return BLOCKED, 0.0, 0.0, i, k
+            if y + trials.reach[trial.angle, 3] > domain.y_max + domain.tolerance:
+                return TOO_HIGH, x, y, i, k
+            position = overlapped(front, placed, grid, domain, trials, trial, i, k, x, y)
+            if position == NOTHING:
+                return RESOLVED, x, y, i, k
+            if position == BYPASSED:
+                return BLOCKED, 0.0, 0.0, i, k
+        if position < i:
+            i = position
+        else:
+            k = position
 
 
 @inlined

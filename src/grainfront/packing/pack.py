@@ -1,4 +1,4 @@
-"""Packing hulls into a rectangle until it is full."""
+"""Packing hulls into a domain until it is full."""
 
 from __future__ import annotations
 
@@ -38,8 +38,9 @@ def fill(
     with more the optimised one. Source: Du et al. (2023), sections 3 and 4.
     """
     arranged = "" if empty.arrangement is None else "arranged "
+    among = "" if empty.domain.obstacles is None else " among obstacles"
     search = search_of(empty.n_angle, empty.n_loc)
-    with compiling(f"{arranged}{search} search") as compilation:
+    with compiling(f"{arranged}{search} search{among}") as compilation:
         empty.advance_to(0)
     kernel_s = run(empty, empty.supply.size.size, progress)
     return as_packing(empty, aspect_ratio), RunTime(kernel_s, compilation.seconds)

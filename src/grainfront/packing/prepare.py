@@ -40,7 +40,7 @@ from grainfront.packing.state import (
     Supply,
     Trials,
 )
-from grainfront.particles import Packing, Rectangle
+from grainfront.particles import Packing, Rectangle, Region
 from grainfront.polygons import Polygons
 
 
@@ -61,14 +61,29 @@ class State(NamedTuple):
     counters: np.ndarray
     n_angle: int
     n_loc: int
+    region: Rectangle
     keeper: SizeKeeper | None = None
 
     def advance_to(self, limit: int) -> None:
         """Place particles until there are `limit` of them or the domain is full."""
         if self.keeper is not None:
             self.keeper.share_out(self.front, self.placed, self.queues, self.supply)
-        *arguments, _ = self
+        *arguments, _, _ = self
         advance(*arguments, limit)
+        while self._start_front(limit):
+            advance(*arguments, limit)
+
+    def _start_front(self, limit: int) -> bool:
+        """Begin another front where the last one did not come; whether there was a place for it."""
+        if self.domain.obstacles is None:
+            return False
+        from grainfront.packing.starts import start_front
+
+        return start_front(
+            self.domain.obstacles, self.front, self.placed, self.grid, self.domain, self.supply,
+            self.laws, self.trials, self.arrangement, self.queues, self.counters, self.n_angle,
+            self.n_loc, limit,
+        )  # fmt: skip
 
     @property
     def n_placed(self) -> int:
@@ -88,7 +103,7 @@ class State(NamedTuple):
     @property
     def domain_area(self) -> float:
         """Area of the domain."""
-        return (self.domain.x_max - self.domain.x_min) * self.domain_height
+        return self.region.area
 
     def copy(self) -> State:
         """The same packing, to be continued in another way; what does not change is shared."""
@@ -128,18 +143,19 @@ def prepare(
     arrangement: Arrangement | None = None,
     last: np.ndarray | None = None,
     largest_size: float | None = None,
+    fixed: Polygons | None = None,
 ) -> State:
     """An empty packing with all its arrays.
 
     `hulls` are standardised (centroid at the origin, S = 1, orientation 0). Particle i is a copy of
     `hulls.polygon(shape[i])` scaled by `size[i]`. Particles are taken in this order, so `shape` and
-    `size`, (n,), must hold enough to fill the domain. With an arrangement, each of its laws has an
-    `orientation`; its particles come one law's after the other's, and `last` (n_laws,) is where
-    they end. `largest_size` is given where sizes are yet to change.
+    `size`, (n,), must hold enough to fill the domain, a rectangle or a region of any shape. With an
+    arrangement, each of its laws has an `orientation`; its particles come one law's after the
+    other's, and `last` (n_laws,) is where they end. `largest_size` is given where sizes are yet to
+    change. Around `fixed`, convex particles, the hollows of a region are filled one by one.
     """
     n = size.size
     last = np.array([n]) if last is None else last
-    walls = _domain(domain)
     supply = _supply(hulls, shape, size, rng)
     circumradius = supply.circumradius[shape] * size
     largest = circumradius.max()
@@ -147,15 +163,22 @@ def prepare(
         largest = max(largest, largest_size * supply.circumradius.max())
     nodes_of_all = int(hulls.node_counts[shape].sum())
     nodes_of_trials = n_angle * int(hulls.node_counts.max()) + SCOUT_CORNERS
+    placed = Placed(
+        nodes=np.empty((nodes_of_all, 2)),
+        offsets=np.zeros(n + 1, dtype=np.int64),
+        disc=np.empty((n, 4)),
+        orientation=np.empty(n),
+        source=np.empty(n, dtype=np.int64),
+    )
+    walls = _domain(domain)
+    if isinstance(domain, Region):
+        from grainfront.packing.region import add_obstacles
+
+        placed, obstacles = add_obstacles(placed, domain, fixed, circumradius, float(largest))
+        walls = walls._replace(obstacles=obstacles)
     return State(
         front=make_front(n),
-        placed=Placed(
-            nodes=np.empty((nodes_of_all, 2)),
-            offsets=np.zeros(n + 1, dtype=np.int64),
-            disc=np.empty((n, 4)),
-            orientation=np.empty(n),
-            source=np.empty(n, dtype=np.int64),
-        ),
+        placed=placed,
         grid=make_grid(walls, circumradius.min(), largest, n),
         domain=walls,
         supply=supply,
@@ -174,6 +197,7 @@ def prepare(
         counters=np.zeros(N_COUNTERS, dtype=np.int64),
         n_angle=n_angle,
         n_loc=n_loc,
+        region=domain,
     )
 
 
@@ -195,7 +219,7 @@ def _queues(last: np.ndarray, members: int) -> Queues:
 def _domain(domain: Rectangle) -> Domain:
     sides = domain.x_min, domain.y_min, domain.x_max, domain.y_max
     clearance = CLEARANCE_ULPS * float(np.spacing(1.0)) * max(map(abs, sides))
-    return Domain(*sides, clearance, TOLERANCE_OF_CLEARANCE * clearance)
+    return Domain(*sides, clearance, TOLERANCE_OF_CLEARANCE * clearance, None)
 
 
 def _supply(
@@ -217,13 +241,13 @@ def _supply(
 def as_packing(state: State, aspect_ratio: np.ndarray) -> Packing:
     """What has been placed so far; `aspect_ratio`, (n_shapes,), is that of the hulls."""
     n = state.n_placed
-    placed, supply, walls = state.placed, state.supply, state.domain
+    placed, supply = state.placed, state.supply
     offsets = placed.offsets[: n + 1]
     source = placed.source[:n]
     shape, size = supply.shape[source], supply.size[source]
     x, y, circumradius, _ = placed.disc[:n].T
     return Packing(
-        domain=Rectangle(walls.x_min, walls.y_min, walls.x_max, walls.y_max),
+        domain=state.region,
         polygons=Polygons(placed.nodes[: offsets[-1]], offsets),
         x=x,
         y=y,

@@ -15,6 +15,7 @@ from grainfront.jit import inlined
 from grainfront.packing.arranged import is_elsewhere
 from grainfront.packing.front import front_length, member_at
 from grainfront.packing.memory import WIDTHS, contact_from_tangent
+from grainfront.packing.obstacles import near_obstacles
 from grainfront.packing.state import Trial
 from grainfront.packing.trials import NOTHING, overlapped_neighbour
 
@@ -41,11 +42,14 @@ def shape_scout(trials, start, angle, inradius):
 
 
 @inlined
-def send_scout(front, placed, domain, trials, scout, memory, arrangement, law, base, begin, p):
+def send_scout(
+    front, placed, domain, trials, circumradius, scout, memory, arrangement, law, base, begin, p
+):
     """Resolve the scout from pair p and note its place: its height and the pairs it covers.
 
-    Where a wall is met or the memory ends, the height is −∞: no bound. In the region of another law
-    it is ∞: no place. A pair that another scout of this step came by leads to the same place.
+    Where a wall is met or the memory ends, the height is −∞: no bound. Where an obstacle is near,
+    it is the least that a particle can touch the pair at; in the region of another law ∞: no place.
+    A pair that another scout of this step came by leads to the same place.
     """
     i = begin + p
     k = i + 1
@@ -57,6 +61,12 @@ def send_scout(front, placed, domain, trials, scout, memory, arrangement, law, b
         a = member_at(front, i)
         b = member_at(front, k)
         if a < 0 or b < 0 or row < 0 or width >= WIDTHS:
+            break
+        if near_obstacles(domain.obstacles, placed, domain, circumradius, a, b):
+            memory.height[p] = min(
+                placed.disc[a, 1] - placed.disc[a, 2], placed.disc[b, 1] - placed.disc[b, 2]
+            )
+            memory.height[p] -= circumradius
             break
         if memory.scouted[entry, 0] == memory.step[0]:
             same = memory.scouted[entry, 1]
@@ -84,14 +94,19 @@ def send_scout(front, placed, domain, trials, scout, memory, arrangement, law, b
 
 
 @inlined
-def bound_pairs(front, placed, domain, trials, scout, memory, arrangement, law, base, first, last):
+def bound_pairs(
+    front, placed, domain, trials, circumradius, scout, memory, arrangement, law, base, first, last
+):
     """Lower bounds of what trials reach from each pair, from the scout's places nearby."""
     begin = max(first - SCOUT_OUTSIDE, 0)
     end = min(last + SCOUT_OUTSIDE, front_length(front) - 2)
     n_sent = end + 1 - begin
     for p in range(n_sent):
         memory.bound[p] = np.inf
-        send_scout(front, placed, domain, trials, scout, memory, arrangement, law, base, begin, p)
+        send_scout(
+            front, placed, domain, trials, circumradius, scout, memory, arrangement, law, base,
+            begin, p,
+        )  # fmt: skip
     for p in range(n_sent):
         left = memory.covers[p, 0]
         right = memory.covers[p, 1]

@@ -18,6 +18,7 @@ from grainfront.packing.arranged import admitted
 from grainfront.packing.exhaustive import lower, no_trial_below
 from grainfront.packing.front import front_length, member_at
 from grainfront.packing.memory import WIDTHS, contact_from_tangent, remember_tangent
+from grainfront.packing.obstacles import OVERLAPPING, near_obstacles, settle
 from grainfront.packing.scout import bound_pairs, shape_scout
 from grainfront.packing.state import Trial
 from grainfront.packing.trials import (
@@ -85,6 +86,26 @@ def resolve_below(front, placed, grid, domain, trials, trial, memory, base, i, k
             if memory.seen[entry, np.uint64(trial.angle)] == memory.step[0]:
                 return BLOCKED, 0.0, 0.0, i, k
             memory.seen[entry, np.uint64(trial.angle)] = memory.step[0]
+        if near_obstacles(domain.obstacles, placed, domain, trial.circumradius, a, b):
+            status, x, y, position, _ = settle(
+                domain.obstacles,
+                front,
+                placed,
+                grid,
+                domain,
+                trials,
+                trial,
+                i,
+                k,
+                ceiling + sinking,
+            )
+            if status != OVERLAPPING:
+                return status, x, y, i, k
+            if position < i:
+                i = position
+            else:
+                k = position
+            continue
         if in_memory and a >= 0 and b >= 0:
             found, x, y = remembered_contact(placed, trials, trial, memory, a, b, entry)
         else:
@@ -128,7 +149,10 @@ def choose_lowest(
     last = min(front.ends[0] + n_loc - 2, front_length(front) - 2)
     base = first - WIDTHS
     scout = shape_scout(trials, n_angle * count, n_angle, inradius)
-    bound_pairs(front, placed, domain, trials, scout, memory, arrangement, law, base, first, last)
+    bound_pairs(
+        front, placed, domain, trials, circumradius, scout, memory, arrangement, law, base, first,
+        last,
+    )  # fmt: skip
     sort_pairs(memory, last + 1 - first)
     best = no_trial_below(highest)
     for n in range(last + 1 - first):

@@ -21,8 +21,34 @@ CLEARANCE_ULPS = 64.0
 TOLERANCE_OF_CLEARANCE = 0.25
 
 
+class Obstacles(NamedTuple):
+    """Convex pieces of what is outside a domain of any shape: particles that never move.
+
+    They are stored behind the places of the particles, from index `first` on, and never join the
+    front. Each cell of a lattice over the bounding rectangle lists the pieces that meet it.
+    """
+
+    first: int
+    empty_about: float  # circumradii about the start of a front that are free of particles
+    box: np.ndarray  # (n_obstacles, 4) bounding boxes
+    cell: float
+    columns: int
+    rows: int
+    start: np.ndarray  # (columns × rows + 1,) where the list of each cell begins, row by row
+    item: np.ndarray  # (n_items,) index from 0 on
+    beside_start: np.ndarray  # (n_obstacles + 1,) where the list of each obstacle begins
+    beside: np.ndarray  # (n_beside,) others that a particle may touch together with it
+    rejected: np.ndarray  # (n,) whether a particle of the supply found no place to begin a front
+    met: np.ndarray  # (n_obstacles,) number of the search that came by last
+    search: np.ndarray  # (1,) number of the current search
+    splits: np.ndarray  # (n,) whether a piece lies between a particle of the front and the next one
+
+
 class Domain(NamedTuple):
-    """Walls of the rectangle and the tolerance of overlap tests, all in the scene's unit."""
+    """Walls of the rectangle and the tolerance of overlap tests, all in the scene's unit.
+
+    Of a domain of any shape it is the bounding rectangle, and `obstacles` is what it is not.
+    """
 
     x_min: float
     y_min: float
@@ -30,6 +56,7 @@ class Domain(NamedTuple):
     y_max: float
     clearance: float
     tolerance: float
+    obstacles: Obstacles | None
 
 
 class Supply(NamedTuple):
@@ -82,7 +109,7 @@ class Queues(NamedTuple):
 
 
 class Placed(NamedTuple):
-    """Particles that have found their place."""
+    """Particles that have found their place; nodes, offsets and disc go on with the obstacles."""
 
     nodes: np.ndarray  # (n_nodes, 2)
     offsets: np.ndarray  # (n + 1,)

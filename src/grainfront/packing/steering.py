@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from grainfront.errors import InputError
 from grainfront.packing.control import (
     EFFORT_SUM,
     ENCLOSED,
@@ -80,6 +81,11 @@ class Steering:
     """An empty packing to be filled to a volume fraction, with a count of the seconds spent."""
 
     def __init__(self, empty: State, particle_area: np.ndarray, rng: np.random.Generator) -> None:
+        if empty.domain.obstacles is not None:
+            raise InputError(
+                "A target volume fraction is reached in rectangles only, but the domain is a "
+                "polygon, where the volume fraction so far cannot be told from the front."
+            )
         supply = empty.supply
         radii = supply.circumradius[supply.shape]
         self.empty, self.particle_area, self.rng = empty, particle_area, rng

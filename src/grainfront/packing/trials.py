@@ -171,29 +171,3 @@ def overlapped(front, placed, grid, domain, trials, trial, i, k, x, y):
     if position == NOTHING:
         position = overlapped_anywhere(front, placed, grid, domain, trials, trial, i, k, x, y)
     return position
-
-
-@inlined
-def resolve(front, placed, grid, domain, trials, trial, i, k):
-    """Widen the pair (i, k) until the trial in contact with it overlaps nothing (paper, Fig. 9).
-
-    Returns (RESOLVED, x, y, i, k), or BLOCKED where no place is found, TOO_HIGH where it would
-    cross the top.
-    """
-    while True:
-        found, x, y = contact_of_pair(
-            placed, domain, trials, trial, member_at(front, i), member_at(front, k)
-        )
-        if not found:
-            return BLOCKED, 0.0, 0.0, i, k
-        if y + trials.reach[trial.angle, 3] > domain.y_max + domain.tolerance:
-            return TOO_HIGH, x, y, i, k
-        position = overlapped(front, placed, grid, domain, trials, trial, i, k, x, y)
-        if position == NOTHING:
-            return RESOLVED, x, y, i, k
-        if position == BYPASSED:
-            return BLOCKED, 0.0, 0.0, i, k
-        if position < i:
-            i = position
-        else:
-            k = position

@@ -43,6 +43,7 @@ def statistics(
     for path in packings:
         packing = netcdf.read_packing(path)
         certificates.append(api.require_certificate(path, packing))
+        api.warn_of_empty_rooms(path, packing)
         measured.append(api.measure(loaded, built, packing))
     write_statistics(
         statistics,

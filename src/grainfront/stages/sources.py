@@ -7,9 +7,10 @@ from pathlib import Path
 
 _PACKAGE = Path(__file__).parents[1]
 _ALWAYS = (
-    "__init__", "api", "arrangement.regions", "arrangement.zones", "checked_yaml", "errors",
-    "image_files",
-    "particles", "polygons", "scene", "scene_arrangement", "scene_laws", "scene_packing",
+    "__init__", "api", "arrangement.polygons_file", "arrangement.regions", "arrangement.resolve",
+    "arrangement.silhouette", "arrangement.zones", "checked_yaml", "errors", "image_files",
+    "particles", "polygons", "scene", "scene_arrangement", "scene_domain", "scene_laws",
+    "scene_packing",
     "scene_statistics", "stages",
 )  # fmt: skip
 _FILES = (

@@ -11,6 +11,8 @@ from grainfront.statistics.distributions import (
     orientation_rose,
 )
 from grainfront.statistics.fractions import (
+    Rooms,
+    find_rooms,
     void_ratio,
     volume_fraction,
     volume_fraction_between,
@@ -26,9 +28,11 @@ __all__ = [
     "Distribution",
     "OrientationRose",
     "PackingStatistics",
+    "Rooms",
     "SizeCorrelation",
     "compare_with_law",
     "find_contacts",
+    "find_rooms",
     "l2_error",
     "measure",
     "orientation_rose",

@@ -5,11 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import shapely
 
 from grainfront.geometry.boxes import bounding_boxes, close_pairs
 from grainfront.geometry.nearness import near_nodes_and_edges
 from grainfront.geometry.rings import neighbours
-from grainfront.particles import CONTACT_TOLERANCE, Packing
+from grainfront.particles import CONTACT_TOLERANCE, Cell, Packing, Region, tiled
 from grainfront.polygons import Polygons
 
 
@@ -21,7 +22,7 @@ class Contacts:
     same shape, lengths in the scene's unit. The normal has length 1 and points from the first
     particle to the second. A pair that touches along an edge is one contact, in the middle of the
     shared segment. `wall_particle` and `wall` have shape (n_wall_contacts,); walls are numbered
-    left 0, bottom 1, right 2, top 3.
+    left 0, bottom 1, right 2, top 3; those of a domain of any shape by its rings, in their order.
     """
 
     pairs: np.ndarray
@@ -36,14 +37,51 @@ class Contacts:
 
 
 def find_contacts(packing: Packing) -> Contacts:
-    """Find the pairs whose gap is at most `CONTACT_TOLERANCE` × mean size, walls apart."""
+    """Find the pairs whose gap is at most `CONTACT_TOLERANCE` × mean size, walls apart.
+
+    In a periodic cell, contacts with the images of its particles count too, each once.
+    """
+    if isinstance(packing.domain, Cell):
+        return _contacts_of_cell(packing, packing.domain)
     tolerance = CONTACT_TOLERANCE * float(packing.size.mean())
     polygons, domain = packing.polygons, packing.domain
     boxes = bounding_boxes(polygons.nodes, polygons.offsets)
-    lower = boxes[:, :2] - [domain.x_min, domain.y_min]
-    upper = [domain.x_max, domain.y_max] - boxes[:, 2:]
-    wall_particle, wall = np.nonzero(np.hstack([lower, upper]) <= tolerance)
+    if isinstance(domain, Region):
+        wall_particle, wall = _ring_contacts(polygons, domain, tolerance)
+    else:
+        lower = boxes[:, :2] - [domain.x_min, domain.y_min]
+        upper = [domain.x_max, domain.y_max] - boxes[:, 2:]
+        wall_particle, wall = np.nonzero(np.hstack([lower, upper]) <= tolerance)
     return Contacts(*_pair_contacts(polygons, boxes, tolerance), wall_particle, wall)
+
+
+def _contacts_of_cell(packing: Packing, cell: Cell) -> Contacts:
+    """Of the contacts of the tiled cell, those of its own particles, and with images one of two."""
+    whole, n = find_contacts(tiled(packing)), packing.x.size
+    first, second = whole.pairs.T
+    kept = (first < n) & (first < second % n)
+    walls = (whole.wall_particle < n) & np.isin(whole.wall, () if cell.along_y else (1, 3))
+    return Contacts(
+        np.column_stack([first, second % n])[kept],
+        whole.position[kept],
+        whole.normal[kept],
+        whole.wall_particle[walls],
+        whole.wall[walls],
+    )
+
+
+def _ring_contacts(
+    polygons: Polygons, region: Region, tolerance: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Particles that touch a ring of the region and the number of the ring, (n,) each, sorted."""
+    nodes, offsets = region.rings.nodes, region.rings.offsets
+    _, after = neighbours(offsets)
+    tree = shapely.STRtree(shapely.linestrings(np.stack([nodes, nodes[after]], axis=1)))
+    shapes = polygons.to_shapely()
+    particle, edge = tree.query(shapes, predicate="dwithin", distance=tolerance)
+    ring = np.searchsorted(offsets, edge, side="right") - 1
+    touching = np.unique(np.column_stack([particle, ring]), axis=0)
+    return touching[:, 0], touching[:, 1]
 
 
 def _pair_contacts(

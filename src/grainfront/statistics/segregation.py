@@ -5,17 +5,20 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import shapely
 
-from grainfront.particles import Packing
+from grainfront.particles import Cell, Packing, Region
 
 
 @dataclass(frozen=True)
 class SizeCorrelation:
     """Pearson's r of the size S with the position of the centre.
 
-    `x` and `y` are along the axes, `centre` is with the distance to the middle of the domain.
+    `x` and `y` are along the axes, `centre` is with the distance to the middle of the domain, of
+    one of any shape to its centroid; along an axis that repeats itself, there is no middle and
+    nothing to be correlated with: NaN.
     `noise_level` is the standard deviation 1/sqrt(N) of r where size and place are independent.
-    All three are 0 where the sizes do not vary.
+    They are 0 where the sizes do not vary.
     """
 
     x: float
@@ -31,14 +34,16 @@ def size_correlation(packing: Packing) -> SizeCorrelation:
     little negative without any segregation.
     """
     domain = packing.domain
-    to_centre = np.hypot(
-        packing.x - 0.5 * (domain.x_min + domain.x_max),
-        packing.y - 0.5 * (domain.y_min + domain.y_max),
-    )
+    x, y = 0.5 * (domain.x_min + domain.x_max), 0.5 * (domain.y_min + domain.y_max)
+    if isinstance(domain, Region):
+        ((x, y),) = shapely.get_coordinates(shapely.centroid(domain.to_shapely())).tolist()
+    to_centre = np.hypot(packing.x - x, packing.y - y)
+    repeats = isinstance(domain, Cell)
+    repeats_along_y = isinstance(domain, Cell) and domain.along_y
     return SizeCorrelation(
-        x=_pearson(packing.size, packing.x),
-        y=_pearson(packing.size, packing.y),
-        centre=_pearson(packing.size, to_centre),
+        x=np.nan if repeats else _pearson(packing.size, packing.x),
+        y=np.nan if repeats_along_y else _pearson(packing.size, packing.y),
+        centre=np.nan if repeats else _pearson(packing.size, to_centre),
         noise_level=float(1.0 / np.sqrt(packing.size.size)),
     )
 

@@ -17,7 +17,12 @@ from grainfront.statistics.distributions import (
     orientation_rose,
     wrap_orientation,
 )
-from grainfront.statistics.fractions import void_ratio, volume_fraction, volume_fraction_bulk
+from grainfront.statistics.fractions import (
+    find_rooms,
+    void_ratio,
+    volume_fraction,
+    volume_fraction_bulk,
+)
 from grainfront.statistics.regions import RegionStatistics
 from grainfront.statistics.segregation import SizeCorrelation, size_correlation
 
@@ -32,6 +37,7 @@ class PackingStatistics:
     `contacts_per_particle` has shape (particles,); `contact_shares[k]` is the share of the
     particles that have k contacts. `wall_contacts` counts pairs of a particle and a wall.
     `distributions` maps the name of each prescribed law to its comparison with what was placed.
+    `empty_area` is that of the rooms of the domain that stayed empty (see `find_rooms`).
     `regions` is None for scenes without an arrangement.
     """
 
@@ -39,6 +45,7 @@ class PackingStatistics:
     left_over: int
     volume_fraction: float
     volume_fraction_bulk: float
+    empty_area: float
     void_ratio: float
     contact_pairs: int
     wall_contacts: int
@@ -78,6 +85,7 @@ def measure(packing: Packing, laws: Mapping[str, Bins]) -> PackingStatistics:
         left_over=packing.left_over,
         volume_fraction=fraction,
         volume_fraction_bulk=volume_fraction_bulk(packing),
+        empty_area=find_rooms(packing).empty_area,
         void_ratio=void_ratio(fraction),
         contact_pairs=len(contacts.pairs),
         wall_contacts=contacts.wall.size,

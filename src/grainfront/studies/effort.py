@@ -14,7 +14,7 @@ import numpy as np
 
 from grainfront.errors import InputError
 from grainfront.packing import PRUNED_FROM_N_LOC, search_of
-from grainfront.particles import Rectangle
+from grainfront.particles import Cell, Rectangle, Region
 from grainfront.scene import Scene
 from grainfront.shapes.database import ShapeDatabase
 from grainfront.studies.pilots import Pilot, PilotScale, pack_pilot, seconds_in
@@ -88,6 +88,11 @@ def recommend(
     `progress` is told the particles of each pilot. Raises InputError where the target is out of
     reach, and where the domain is too small for the grains.
     """
+    if isinstance(scene.domain, Cell | Region):
+        raise InputError(
+            f"{scene.name}: its domain is no plain rectangle, but pilot packings tell the effort "
+            "in plain rectangles only"
+        )
     return _Study(scene, database, progress).recommend(target)
 
 

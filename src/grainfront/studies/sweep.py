@@ -57,7 +57,7 @@ def searches(scene: Scene) -> list[str]:
     """The searches that the pairs of a sweep need, each with kernels of its own."""
     sweep = sweep_of(scene)
     pairs = product(sweep.n_angle, sweep.n_loc)
-    return sorted({api.search(_with_effort(scene, *pair)) for pair in pairs})
+    return sorted({s for pair in pairs for s in api.searches(_with_effort(scene, *pair))})
 
 
 def _with_effort(scene: Scene, n_angle: int, n_loc: int) -> Scene:

@@ -11,6 +11,7 @@ from pathlib import Path
 import netCDF4
 import numpy as np
 import pytest
+import shapely
 import xarray as xr
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -19,7 +20,7 @@ from hypothesis.extra.numpy import arrays
 from grainfront.errors import InputError
 from grainfront.files.netcdf import read_attributes, read_packing, write_packing
 from grainfront.files.seal import seal
-from grainfront.particles import Packing, Rectangle
+from grainfront.particles import Cell, Packing, Rectangle, Region
 from grainfront.polygons import Polygons
 
 sys.path.insert(0, str(Path(__file__).parent))
@@ -78,6 +79,49 @@ def test_round_trip_bit_for_bit(tmp_path_factory, packing, scene):
     write(path, packing, scene_text=scene)
     assert_same(packing, read_packing(path))
     assert read_attributes(path)["scene"] == scene
+
+
+def test_a_region_comes_back_bit_for_bit(tmp_path):
+    frame = shapely.box(-0.1, 0.0, 4.0, 3.0).difference(shapely.Point(2.0, 1.0).buffer(1 / 3))
+    region = Region.of(shapely.union_all([frame, shapely.box(5.0, 0.0, 6.0, 1.0)]))
+    packing = replace(synthetic.packing(2, 3, np.random.default_rng(0)), domain=region)
+    write(tmp_path / "packing.nc", packing)
+    read = read_packing(tmp_path / "packing.nc").domain
+    assert isinstance(read, Region)
+    np.testing.assert_array_equal(read.rings.nodes, region.rings.nodes)
+    np.testing.assert_array_equal(read.rings.offsets, region.rings.offsets)
+    np.testing.assert_array_equal(read.parts, region.parts)
+    assert (read.x_min, read.y_max, read.area) == (-0.1, 3.0, region.area)
+
+
+@pytest.mark.parametrize("along_y", [False, True])
+def test_a_cell_comes_back_bit_for_bit(tmp_path, along_y):
+    packing = synthetic.packing(3, 2, np.random.default_rng(1))
+    packing = replace(packing, domain=Cell(-0.1, 1e-9, 1 / 3, 2.0, along_y))
+    write(tmp_path / "packing.nc", packing)
+    assert_same(packing, read_packing(tmp_path / "packing.nc"))
+
+
+@pytest.mark.parametrize(
+    ("attribute", "value", "says"),
+    [
+        ("periodic", "y", "periodic is 'y', but must be 'x' or 'x y'"),
+        ("domain", "POINT (1 2)", "the domain is POINT .1 2., but must be a polygon"),
+        ("domain", "MULTIPOLYGON (((0 0, 2 2, 2 0, 0 2, 0 0)))", "no valid polygon"),
+        ("domain", "MULTIPOLYGON (((0 0, 2 0, 2 2, 0 0)))", "periodic is 'x'"),
+        ("domain", "POLY", "no WKT polygon"),
+    ],
+)
+def test_a_damaged_domain_is_told(tmp_path, attribute, value, says):
+    path = tmp_path / "packing.nc"
+    packing = synthetic.packing(3, 2, np.random.default_rng(1))
+    write(path, replace(packing, domain=Cell(0.0, 0.0, 3.0, 2.0, False)))
+    with netCDF4.Dataset(path, "a") as dataset:
+        dataset.setncattr(attribute, value)
+    seal(path)
+    with pytest.raises(InputError, match=says) as error:
+        read_packing(path)
+    assert str(path) in str(error.value)
 
 
 def test_equal_input_gives_equal_bytes_in_any_process(tmp_path):
