@@ -1,9 +1,6 @@
 # From scenes to certified packings: `snakemake` builds the scenes that config/config.yaml names.
 
 
-configfile: "config/config.yaml"
-
-
 include: "workflow/rules/common.smk"
 include: "workflow/rules/shapes.smk"
 include: "workflow/rules/kernels.smk"

@@ -13,15 +13,19 @@ from grainfront.errors import InputError
 # Images inside scikit-image's own package, which need no download, are named with this prefix.
 SHIPPED = "skimage:"
 SHIPPED_IMAGES = ("gravel", "coins", "horse")
+# Images of more pixels are refused: finding grains takes some 85 bytes a pixel, 8.5 GB for these.
+MOST_PIXELS = 10**8
+# Files of other endings are read by Pillow.
+TIFF = (".tif", ".tiff")
 
 
 def read_image(path: str) -> np.ndarray:
     """Read an image file, or one inside scikit-image ("skimage:gravel"), as it is.
 
-    Raises InputError, naming the file, where it cannot be read.
+    Raises InputError, naming the file, where it cannot be read, and before it is decoded where it
+    has more than MOST_PIXELS.
     """
     import skimage.data
-    import skimage.io
 
     if path.startswith(SHIPPED):
         name = path.removeprefix(SHIPPED)
@@ -36,9 +40,14 @@ def read_image(path: str) -> np.ndarray:
     try:
         # what the readers warn of, such as a large image, either ends in an error or is none
         with warnings.catch_warnings(action="ignore"):
-            pixels = np.asarray(skimage.io.imread(path))
+            count = _count(path)
+            pixels = _decoded(path) if count <= MOST_PIXELS else np.empty(0)
     except Exception as reason:  # each of the image readers raises errors of its own
         raise InputError(f"{path}: not a readable image ({_first_line(reason)}).") from reason
+    if count > MOST_PIXELS:
+        raise InputError(
+            f"{path}: has more than {MOST_PIXELS:,} pixels, but at most that many are allowed."
+        )
     if pixels.ndim not in (2, 3) or pixels.size == 0:
         raise InputError(f"{path}: an image has rows and columns, this has shape {pixels.shape}.")
     return pixels
@@ -68,6 +77,31 @@ def grey_values(path: str, pixels: np.ndarray) -> np.ndarray:
     if low == high:
         raise InputError(f"{path}: an image of a single grey value shows nothing.")
     return (grey - low) / (high - low)
+
+
+def _count(path: str) -> int:
+    """Pixels of all pictures in a file, by its header; MOST_PIXELS + 1 where Pillow refuses it."""
+    import tifffile
+    from PIL import Image
+
+    if path.lower().endswith(TIFF):
+        with tifffile.TiffFile(path) as file:
+            return file.series[0].size // max(file.series[0].keyframe.samplesperpixel, 1)
+    try:
+        with Image.open(path) as image:
+            return image.width * image.height * getattr(image, "n_frames", 1)
+    except Image.DecompressionBombError:
+        return MOST_PIXELS + 1
+
+
+def _decoded(path: str) -> np.ndarray:
+    import imageio.v3
+    import skimage.io
+
+    if path.lower().endswith(TIFF):
+        return np.asarray(skimage.io.imread(path))
+    pixels = imageio.v3.imread(path, plugin="pillow")
+    return pixels[0] if pixels.ndim == 4 and len(pixels) == 1 else pixels  # GIF counts its frames
 
 
 def _first_line(reason: Exception) -> str:

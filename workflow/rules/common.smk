@@ -1,6 +1,7 @@
 # The scenes, checked; what each of them asks for; and on what the results of each stage depend.
 
 import json
+import os
 import sys
 from pathlib import Path
 
@@ -29,28 +30,61 @@ def scene_file(scene):
 
 
 def read_config():
-    """The configuration, checked; InputError where it is at fault."""
+    """The configuration and what `--config` changes in it, checked; InputError where at fault.
+
+    Snakemake's own `configfile:` would run what a template says.
+    """
+    name = "config/config.yaml"
     schema = json.loads(read_text(Path(workflow.basedir) / "config/config.schema.json"))
-    return parse_checked(yaml.safe_dump(dict(config)), schema, "config/config.yaml")
+    given = parse_checked(read_text(Path(name)), schema, name)
+    return parse_checked(yaml.safe_dump(given | config), schema, name)
+
+
+def files_of_shapes(scene):
+    """The files that the shapes of a scene come from; a photograph of scikit-image is none."""
+    source = scene.shapes
+    paths = [source.path] if hasattr(source, "path") else getattr(source, "paths", [])
+    return [path for path in paths if not path.startswith(SHIPPED)]
+
+
+def read_scene(name):
+    """A scene, checked; InputError where it is at fault or names files that Snakemake cannot take."""
+    scene = api.load_scene(scene_file(name))
+    for path in [*files_of_shapes(scene), *scene.zone_files]:
+        if "{" in path or "}" in path:
+            raise InputError(
+                f"{scene_file(name)}: the file {path!r} must have a name without braces, "
+                "which Snakemake takes for wildcards"
+            )
+    return scene
 
 
 try:
     CONFIG = read_config()
-    SCENES = {name: api.load_scene(scene_file(name)) for name in CONFIG["scenes"]}
+    SCENES = {name: read_scene(name) for name in CONFIG["scenes"]}
 except InputError as error:
     sys.exit(api.sentence(error))
+
+
+# Told once, before the first job, not by each of them.
+onstart:
+    Path("results").mkdir(exist_ok=True)
+    if not os.access("results", os.W_OK):
+        sys.exit("grainfront: results: the folder is not writable.")
+
+
+def image_files(wildcards):
+    return files_of_shapes(SCENES[wildcards.scene])
+
+
+def zone_files(wildcards):
+    """The images and files that the domain and the regions of a scene come from."""
+    return SCENES[wildcards.scene].zone_files
 
 
 def kinds_of(scene):
     """The hulls as packed and, with replacement, the outlines."""
     return list(KINDS) if scene.replacement else [""]
-
-
-def image_files(wildcards):
-    """The files that the shapes of a scene come from; a photograph of scikit-image is none."""
-    source = SCENES[wildcards.scene].shapes
-    paths = [source.path] if hasattr(source, "path") else getattr(source, "paths", [])
-    return [path for path in paths if not path.startswith(SHIPPED)]
 
 
 def has_images(scene):
@@ -60,11 +94,6 @@ def has_images(scene):
 def has_zones(scene):
     regions = scene.arrangement.regions if scene.arrangement else ()
     return any(region.inside for region in regions)
-
-
-def zone_files(wildcards):
-    """The images and files that the domain and the regions of a scene come from."""
-    return SCENES[wildcards.scene].zone_files
 
 
 def results_of(scene):

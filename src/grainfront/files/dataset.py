@@ -16,6 +16,7 @@ from grainfront.errors import InputError
 from grainfront.files.atomic import replacing
 from grainfront.files.contract import CONVENTIONS, Contract
 from grainfront.files.header import json_schema
+from grainfront.files.seal import require_sealed, seal
 
 DTYPES: dict[str, Any] = {
     "int": np.int32, "int64": np.int64, "double": np.float64, "string": str
@@ -61,6 +62,7 @@ def write_dataset(
                     dataset.setncattr(name, attributes[name])
             with netCDF4.Dataset(temporary) as dataset:
                 _check_header(path, contract, header(dataset))
+            seal(temporary)
     except RuntimeError as error:  # so HDF5 tells of a full disk
         raise OSError(f"{path}: cannot be written ({error}), perhaps for want of space") from error
 
@@ -68,12 +70,13 @@ def write_dataset(
 def read_dataset(path: Path, contract: Contract) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
     """Variables and global attributes of the dataset at `path`.
 
-    Errors: InputError where there is no such file, it is no NetCDF file, it is cut off, or it
-    breaks the contract.
+    Errors: InputError where there is no such file, it is no NetCDF file, it is cut off or damaged,
+    or it breaks the contract.
     """
     if not os.path.isfile(path):
         raise InputError(f"{path}: there is no such file")
     try:
+        require_sealed(path)
         with netCDF4.Dataset(path) as dataset:
             dataset.set_auto_mask(False)
             found = header(dataset)

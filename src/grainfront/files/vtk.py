@@ -6,6 +6,7 @@ import os
 
 import numpy as np
 import pyvista
+from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
 from grainfront.errors import InputError
 from grainfront.files.atomic import replacing
@@ -35,5 +36,11 @@ def write_vtp(path: str | os.PathLike[str], packing: Packing) -> None:
     if packing.region is not None:
         mesh.cell_data["region"] = packing.region
     mesh.set_active_scalars("size")
+    # VTK writes to memory alone: on a full disk it would end the process
+    writer = vtkXMLPolyDataWriter()
+    writer.SetInputData(mesh)
+    writer.WriteToOutputStringOn()
+    if not writer.Write():
+        raise OSError(f"{path}: VTK cannot write these polygons")
     with replacing(path) as temporary:
-        mesh.save(temporary)
+        temporary.write_text(writer.GetOutputString(), encoding="ascii")

@@ -33,6 +33,11 @@ class Memory(NamedTuple):
     order: np.ndarray  # (n_pairs,) pairs, lowest bound first
 
 
+def n_bytes(n_angle: int, n_loc: int) -> int:
+    """Bytes of such a memory, to the thousand: those of `seen`."""
+    return 8 * 2 * (n_loc + WIDTHS) * WIDTHS * n_angle
+
+
 def make_memory(n_angle: int, n_loc: int) -> Memory:
     """Memory for the local front of 2 n_loc members and the pairs that reach beyond it."""
     n_pairs = 2 * (n_loc + WIDTHS)

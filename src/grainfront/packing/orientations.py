@@ -28,11 +28,20 @@ def orientation_law(probabilities: np.ndarray, quantile: np.ndarray) -> Orientat
 
 
 def orientation_laws(laws: Sequence[OrientationLaw]) -> OrientationLaws:
-    """Laws as the kernel takes them, with nothing placed yet."""
-    probability = np.stack([law.probability for law in laws])
+    """Laws as the kernel takes them, with nothing placed yet.
+
+    A constant law has one bin; to stand beside others it gets empty ones.
+    """
+    n_bin = max(law.probability.size for law in laws)
+    empty = [n_bin - law.probability.size for law in laws]
+    probability = np.stack(
+        [np.pad(law.probability, (0, n)) for law, n in zip(laws, empty, strict=True)]
+    )
     return OrientationLaws(
         probability,
-        np.stack([law.cumulative for law in laws]),
+        np.stack(
+            [np.pad(law.cumulative, (0, n), "edge") for law, n in zip(laws, empty, strict=True)]
+        ),
         np.stack([law.quantile for law in laws]),
         np.array([law.largest_rise for law in laws]),
         np.zeros(probability.shape, dtype=np.int64),

@@ -190,7 +190,7 @@ def prepare(
             reach=np.empty((n_angle + 1, 4)),
             orientation=np.empty(n_angle),
             bin=np.empty(n_angle, dtype=np.int64),
-            weight=np.empty(orientation[0].probability.size + 1),
+            weight=np.empty(max(law.probability.size for law in orientation) + 1),
         ),
         memory=make_memory(n_angle, n_loc) if search_of(n_angle, n_loc) == "pruned" else None,
         control=None,

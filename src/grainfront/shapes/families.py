@@ -18,6 +18,8 @@ from grainfront.shapes.sources import (
 TRIALS_PER_GRAIN = 100
 # Mollon & Zhao (2012) keep 64 modes; more than half the nodes cannot carry a mode.
 FOURIER_MODES = 64
+# A database of more nodes is refused: each takes up to 220 bytes while it is built, 4.4 GB in all.
+MOST_NODES = 2 * 10**7
 
 
 def rectangles(family: Rectangles) -> Polygons:
@@ -51,6 +53,7 @@ def random_convex_polygons(family: RandomConvexPolygons, rng: np.random.Generato
     """
     _at_least(3, family.vertices, "random convex polygons: vertices")
     _at_least(1, family.count, "random convex polygons: count")
+    _require_memory(family, "random convex polygons")
     return Polygons.of([_valtr(family.vertices, rng) for _ in range(family.count)])
 
 
@@ -79,6 +82,7 @@ def fourier_grains(family: FourierGrains, rng: np.random.Generator) -> tuple[Pol
     """
     _at_least(3, family.vertices, "Fourier grains: vertices")
     _at_least(1, family.count, "Fourier grains: count")
+    _require_memory(family, "Fourier grains")
     spectrum = _spectrum(family)
     angle = 2.0 * np.pi * np.arange(family.vertices) / family.vertices
     kept: list[np.ndarray] = []
@@ -116,3 +120,12 @@ def _spectrum(family: FourierGrains) -> np.ndarray:
 def _at_least(least: int, found: int, what: str) -> None:
     if found < least:
         raise InputError(f"{what} is {found}; allowed are whole numbers from {least} on.")
+
+
+def _require_memory(family: RandomConvexPolygons | FourierGrains, what: str) -> None:
+    nodes = family.vertices * family.count
+    if nodes > MOST_NODES:
+        raise InputError(
+            f"{what}: {family.count:,} shapes of {family.vertices:,} vertices have {nodes:,} nodes "
+            f"in all; allowed are {MOST_NODES:,} at most."
+        )

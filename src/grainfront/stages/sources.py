@@ -13,7 +13,9 @@ _ALWAYS = (
     "scene_packing",
     "scene_statistics", "stages",
 )  # fmt: skip
-_FILES = ("files.atomic", "files.contract", "files.dataset", "files.header", "files.netcdf")
+_FILES = (
+    "files.atomic", "files.contract", "files.dataset", "files.header", "files.netcdf", "files.seal",
+)  # fmt: skip
 _DATABASE = ("shapes.database", "shapes.descriptors")
 _REGIONS = ("arrangement", "scene_regions")
 _LAWS = ("laws", "shapes.sources", *_ALWAYS)
@@ -45,8 +47,8 @@ SOURCES = {
     "arrangement_picture": ("figures", "geometry", "jit", "files.atomic", *_REGIONS, *_LAWS),
     "vtk": ("files.vtk", *_FILES, *_LAWS),
     "figures": (
-        "certificate", "figures", "geometry", "jit", "shapes", "statistics", "files.statistics",
-        *_FILES, *_LAWS,
+        "certificate", "figures", "geometry", "jit", "shapes", "statistics",
+        "files.statistics", *_FILES, *_LAWS,
     ),
 }  # fmt: skip
 """What of the package each stage's results depend on: modules, and packages with all of theirs."""

@@ -19,6 +19,7 @@ from hypothesis.extra.numpy import arrays
 
 from grainfront.errors import InputError
 from grainfront.files.netcdf import read_attributes, read_packing, write_packing
+from grainfront.files.seal import seal
 from grainfront.particles import Cell, Packing, Rectangle, Region
 from grainfront.polygons import Polygons
 
@@ -117,6 +118,7 @@ def test_a_damaged_domain_is_told(tmp_path, attribute, value, says):
     write(path, replace(packing, domain=Cell(0.0, 0.0, 3.0, 2.0, False)))
     with netCDF4.Dataset(path, "a") as dataset:
         dataset.setncattr(attribute, value)
+    seal(path)
     with pytest.raises(InputError, match=says) as error:
         read_packing(path)
     assert str(path) in str(error.value)
@@ -189,6 +191,10 @@ def test_what_is_no_packing_is_refused(tmp_path):
     text, other = tmp_path / "text.nc", tmp_path / "other.nc"
     text.write_text("x, y\n")
     netCDF4.Dataset(other, "w").close()
+    for path in (text, other):
+        with pytest.raises(InputError, match="not a whole NetCDF file"):
+            read_packing(path)
+        seal(path)
     with pytest.raises(InputError, match="not a whole NetCDF file"):
         read_packing(text)
     with pytest.raises(InputError, match="not a packing dataset"):
@@ -232,9 +238,33 @@ def test_a_broken_contract_is_named(tmp_path, spoil, says):
     write(path, synthetic.packing(3, 2, np.random.default_rng(0)))
     with netCDF4.Dataset(path, "a") as dataset:
         spoil(dataset)
+    seal(path)
     with pytest.raises(InputError, match=says) as error:
         read_packing(path)
     assert str(error.value).startswith(str(path))
+
+
+def test_every_flipped_bit_is_told(tmp_path):
+    """Without the seal, one of ten goes unnoticed, and some end the process inside HDF5."""
+    path = tmp_path / "packing.nc"
+    write(path, synthetic.packing(3, 3, np.random.default_rng(1)))
+    whole = path.read_bytes()
+    for place in np.random.default_rng(2).integers(0, 8 * len(whole), 500):
+        damaged = bytearray(whole)
+        damaged[place // 8] ^= 1 << place % 8
+        path.write_bytes(damaged)
+        with pytest.raises(InputError, match="damaged or changed since it was written"):
+            read_packing(path)
+
+
+def test_other_readers_do_not_mind_the_seal(tmp_path):
+    path = tmp_path / "packing.nc"
+    packing = synthetic.packing(3, 3, np.random.default_rng(1))
+    write(path, packing)
+    with xr.open_dataset(path) as dataset:
+        assert np.array_equal(dataset["size"], packing.size)
+    with netCDF4.Dataset("memory", memory=path.read_bytes()) as dataset:
+        assert np.array_equal(dataset["size"], packing.size)
 
 
 @pytest.mark.parametrize(

@@ -12,6 +12,7 @@ from hypothesis.extra.numpy import arrays
 from grainfront.errors import InputError
 from grainfront.files.contract import SHAPES
 from grainfront.files.netcdf import read_shapes, write_shapes
+from grainfront.files.seal import seal
 from grainfront.polygons import Polygons
 from grainfront.shapes.database import ShapeDatabase
 
@@ -88,6 +89,7 @@ def test_a_hull_node_that_is_no_node_is_refused(tmp_path_factory, database):
     write_shapes(path, database, **SOURCE)
     with netCDF4.Dataset(path, "a") as dataset:
         dataset["hull_node"][0] = 10**6
+    seal(path)
     with pytest.raises(InputError, match="hull_node does not index"):
         read_shapes(path)
 

@@ -11,6 +11,7 @@ import pytest
 
 from grainfront.certificate import Certificate
 from grainfront.errors import InputError
+from grainfront.files.seal import seal
 from grainfront.files.statistics import SceneStatistics, read_statistics, write_statistics
 from grainfront.statistics import measure
 
@@ -73,5 +74,6 @@ def test_a_missing_number_is_named(tmp_path):
     write_statistics(tmp_path / "statistics.nc", scene_statistics(LAWS), **SCENE)
     with netCDF4.Dataset(tmp_path / "statistics.nc", "a") as dataset:
         dataset.renameVariable("void_ratio", "porosity")
+    seal(tmp_path / "statistics.nc")
     with pytest.raises(InputError, match="void_ratio"):
         read_statistics(tmp_path / "statistics.nc")

@@ -1,0 +1,65 @@
+"""A short share of the fuzzing: random scenes, damaged files; and what it has found."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+
+sys.path.insert(0, str(Path(__file__).parent))
+from damage import IMAGES, KINDS, OUTLINES, RESULTS, check_file, damaged_files, whole
+from scenes import check_scene, scenes
+
+# Sequences are the same in each run, so that a failure is found again.
+SHORT = settings(
+    deadline=None, derandomize=True, database=None, suppress_health_check=list(HealthCheck)
+)
+
+
+@pytest.mark.skipif("NUMBA_DISABLE_JIT" in os.environ, reason="takes too long uncompiled")
+@settings(SHORT, max_examples=40)
+@given(scenes())
+def test_random_scenes_are_packed_or_refused(scene):
+    check_scene(scene)
+
+
+@settings(SHORT, max_examples=150)
+@given(damaged_files(("scene.yaml", *OUTLINES)))
+def test_damaged_texts_are_valid_or_refused(damaged):
+    check_file(*damaged)
+
+
+@settings(SHORT, max_examples=100)
+@given(damaged_files(tuple(IMAGES)))
+def test_damaged_images_are_valid_or_refused(damaged):
+    check_file(*damaged)
+
+
+@settings(SHORT, max_examples=100)
+@given(damaged_files(tuple(RESULTS)))
+def test_damaged_results_are_refused(damaged):
+    check_file(*damaged)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_whole_files_are_valid(kind):
+    assert check_file(kind, whole(kind)) == "valid"
+
+
+SMALL = {
+    "seed": 0,
+    "domain": {"width": 6, "height": 6},
+    "shapes": {"family": {"rectangle": {}}},
+    "size": {"constant": 1},
+}
+
+
+def test_a_constant_orientation_beside_another_law():
+    """Found by fuzzing: laws of one bin and of several ended in a traceback."""
+    region = {"inside": {"circle": {"centre": [3, 3], "radius": 2}}}
+    law = {"orientation": {"uniform": {"minimum": 0, "maximum": 90}}}
+    arrangement = {"arrangement": {"regions": [region | law]}}
+    assert check_scene(SMALL | {"orientation": {"constant": 30}} | arrangement) == "packed"
