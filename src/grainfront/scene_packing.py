@@ -53,10 +53,18 @@ def pack(
 
     if scene.target is not None:
         return pack_to_target(scene, database, seed, progress)[:2]
-    empty = _empty(scene, database, seed, _generator(seed, PACKING_STAGE))
+    empty = empty_packing(scene, database, seed)
     packing, run_time = fill(empty, database.descriptors["aspect_ratio"], progress)
     _require_particles(scene, packing)
     return packing, run_time
+
+
+def empty_packing(scene: Scene, database: ShapeDatabase, seed: int) -> State:
+    """The domain of the scene without any particle, and all that it needs to be filled.
+
+    `pack` fills it with `grainfront.packing.pack.fill`, and raises what this raises.
+    """
+    return _empty(scene, database, seed, _generator(seed, PACKING_STAGE))
 
 
 def pack_to_target(

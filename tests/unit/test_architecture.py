@@ -90,6 +90,7 @@ LIBRARIES = {
         "arrangement",
         "files.netcdf",
         "studies.error_vs_time",
+        "studies.stability.rounding",
     ),
     "skimage": ("shapes.images", "shapes.outlines", "arrangement.silhouette"),
     "netCDF4": ("files",),

@@ -40,6 +40,11 @@ SOURCES = {
         "studies", "files.error_vs_time", *_REGIONS, *_FILES, *_LAWS,
     ),
     "error_vs_time_picture": ("figures", "files.error_vs_time", *_FILES, *_LAWS),
+    "stability": (
+        "certificate", "draw", "geometry", "jit", "packing", "shapes", "statistics",
+        "studies.stability", "files.stability", *_REGIONS, *_FILES, *_LAWS,
+    ),
+    "stability_report": ("figures", "files.stability", "files.stability_table", *_FILES, *_LAWS),
     "arrangement_picture": ("figures", "geometry", "jit", "files.atomic", *_REGIONS, *_LAWS),
     "vtk": ("files.vtk", *_FILES, *_LAWS),
     "figures": (
