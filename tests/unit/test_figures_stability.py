@@ -21,7 +21,7 @@ def test_a_picture_is_no_blank_sheet_and_repeats(picture, tmp_path):
         figures.save_png(figure, tmp_path / name)
     drawn = (tmp_path / "a.png").read_bytes()
     assert drawn == (tmp_path / "b.png").read_bytes()
-    assert 15_000 < len(drawn) < 150_000
+    assert 15_000 < len(drawn) < 400_000
 
 
 def test_every_case_has_its_line_and_the_refused_say_so():

@@ -18,11 +18,11 @@ SMALL = dataclasses.replace(MODERATE, domain=square(8.0), efforts=(PLAIN,), seed
 def measure(cases):
     """The study, of a few cases and a few offsets."""
     whole = study.measure_stability
-    return lambda: whole(cases, ratios=(1.0,), offsets=(0.0, 1e3))
+    return lambda: whole(cases, ratios=(1.0,), offsets=(0.0, 1e3), edges=(4,))
 
 
 def test_the_target_plans_a_record_and_a_report_whatever_the_scenes(project):
-    assert project.planned("stability") == {
+    assert project.planned("--", "stability") == {
         "stability": 1, "stability_record": 1, "stability_report": 1
     }  # fmt: skip
     assert not {"stability_record", "stability_report"} & set(project.planned())

@@ -41,8 +41,7 @@ def stability(found: Quantities) -> Figure:
                   for law in ("size", "orientation")]  # fmt: skip
     worst = np.fmax(*errors)
     shown = (found["relative_fraction"], found["growth"], worst)
-    titles = ("volume fraction over\nthe moderate case's", "kernel time a particle\nover its",
-              "E2 over its noise level,\nthe larger of S and α")  # fmt: skip
+    titles = ("volume fraction", "kernel time a particle", "E2 over its noise level")  # fmt: skip
     for axes, values, letter, title in zip(panels, shown, "abc", titles, strict=True):
         panel_letter(axes, letter, title)
         _grid(axes, len(cases))
@@ -56,8 +55,8 @@ def stability(found: Quantities) -> Figure:
     refused = np.unique(place[found["refusal"] != ""])
     for y in refused:
         panels[0].text(1.1, y, "refused", va="center", fontsize=6)
-    panels[1].plot(found["most_growth"], place, "|", color=INK, markersize=5, label="allowed")
-    panels[1].legend(loc="lower right", fontsize=6)
+    panels[1].plot(found["most_growth"], place, "|", color=INK, markersize=5, label="most allowed")
+    figure.legend(*panels[1].get_legend_handles_labels(), loc="outside lower center", ncols=3)
     panels[0].set_yticks(-np.arange(len(cases), dtype=float), cases, fontsize=6)
     panels[0].set_ylim(0.7 - len(cases), 0.7)
     return figure
@@ -71,12 +70,14 @@ def _grid(axes: Axes, lines: int) -> None:
 
 @styled
 def clearance(found: Quantities) -> Figure:
-    """Clearance over offset and size ratio, above the rounding; and the gaps of the contacts."""
-    figure = Figure(figsize=(WIDTH, 85 * MM))
-    left, right = figure.subplots(1, 2)
+    """Clearance above rounding, over offset, size ratio and edges; and the gaps of contacts."""
+    figure = Figure(figsize=(WIDTH, 80 * MM))
+    left, middle, right = figure.subplots(1, 3, width_ratios=(1.4, 0.8, 1.1))
     panel_letter(left, "a", "clearance, and where overlaps begin")
-    panel_letter(right, "b", "gaps of the contacts of all runs")
+    panel_letter(middle, "b", "the same over edges")
+    panel_letter(right, "c", "gaps of the contacts")
     _draw_clearance(left, found)
+    _draw_edges(middle, found)
     _draw_gaps(right, found)
     return figure
 
@@ -93,7 +94,7 @@ def _draw_clearance(axes: Axes, found: Quantities) -> None:
                   markersize=3)  # fmt: skip
     axes.plot([], [], "-", color=INK, label="clearance")
     axes.plot([], [], "x--", color=INK, linewidth=0.7, markersize=3,
-              label="so little gave overlaps")  # fmt: skip
+              label="with so little, overlaps")  # fmt: skip
     axes.set_xscale("log")
     axes.set_yscale("log")
     for axis in (axes.xaxis, axes.yaxis):
@@ -101,6 +102,17 @@ def _draw_clearance(axes: Axes, found: Quantities) -> None:
     axes.set_xlabel("offset of the domain from the origin (mean sizes)")
     axes.set_ylabel("length (smallest sizes)")
     axes.legend(loc="upper left")
+
+
+def _draw_edges(axes: Axes, found: Quantities) -> None:
+    """Clearance and rounding, in ulps, over the number of edges."""
+    axes.axhline(float(found["clearance_ulps"]), color=INK, linewidth=1.0)
+    axes.plot(found["edges"], found["edges_rounding"], "x--", color=INK, linewidth=0.7,
+              markersize=3)  # fmt: skip
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlabel("edges of each particle")
+    axes.set_ylabel("units in the last place")
 
 
 def _draw_gaps(axes: Axes, found: Quantities) -> None:

@@ -91,6 +91,7 @@ STABILITY = Contract(
         "series": "series of cases along which the kernel time is fitted",
         "size_ratio": "ratios of the largest size to the smallest",
         "offset": "offsets of the domain from the origin",
+        "edges": "numbers of edges of equal ellipses",
     },
     variables={
         **_of("string", RUN, TEXTS),
@@ -113,6 +114,8 @@ STABILITY = Contract(
         **_of("double", ("size_ratio",), {"size_ratio": ("1", "largest over smallest size")}),
         **_of("double", ("offset",), {"offset": ("1", "distance from the origin in mean sizes")}),
         **_of("double", GROWTH, GROWTHS),
+        **_of("int64", ("edges",), {"edges": ("1", "edges of each particle")}),
+        **_of("double", ("edges",), {"edges_rounding": GROWTHS["rounding"]}),
         **_of(
             "double",
             (),

@@ -45,5 +45,7 @@ def quantities() -> dict[str, np.ndarray]:
         "offset": np.array([0.0, 1e3, 1e6]),
         **{name: np.full(shape, 0.5) for name in GROWTHS},
         "clearance": np.geomspace(1e-13, 1e-6, 6).reshape(shape),
+        "edges": np.array([4, 100]),
+        "edges_rounding": np.array([1.0, 4.0]),
         "clearance_ulps": np.array(64.0),
     }

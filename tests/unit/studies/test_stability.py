@@ -126,7 +126,7 @@ def test_a_failure_ends_the_study_with_the_names_of_the_cases():
         MODERATE, name="dense", domain=square(6.0), volume_fraction=0.99, efforts=(PLAIN,), seeds=1
     )
     with pytest.raises(InputError, match=r"1 expectations are not met: dense \(1/1\): volume"):
-        measure_stability({"dense": case}, ratios=(1.0,), offsets=(0.0,))
+        measure_stability({"dense": case}, ratios=(), offsets=(), edges=())
 
 
 def test_particles_that_vanish_or_come_twice_are_counted():
@@ -244,9 +244,11 @@ def test_growth_of_time_is_a_power_along_a_series(rows):
 
 
 def test_less_than_the_clearance_gives_overlaps_but_the_clearance_has_a_wide_margin():
-    growth = measure_error_growth(ratios=(1.0, 10.0), offsets=(0.0, 1e4))
+    growth = measure_error_growth(ratios=(1.0, 10.0), offsets=(0.0, 1e4), edges=(8, 200))
     assert (growth.rounding > 0).all()
     assert (growth.rounding <= CLEARANCE_ULPS / 8.0).all()
+    assert (growth.edges_rounding > 0).all()
+    assert (growth.edges_rounding <= CLEARANCE_ULPS / 4.0).all()
     assert (growth.departure <= 1.0).all()
     assert growth.clearance[0, 1] > 100 * growth.clearance[0, 0]
     ulps = growth.clearance / growth.farthest / np.spacing(1.0)

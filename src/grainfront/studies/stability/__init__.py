@@ -13,7 +13,7 @@ import numpy as np
 from grainfront.errors import InputError
 from grainfront.studies.stability.case import Case
 from grainfront.studies.stability.cases import CASES
-from grainfront.studies.stability.error_growth import OFFSETS, RATIOS, measure_error_growth
+from grainfront.studies.stability.error_growth import EDGES, OFFSETS, RATIOS, measure_error_growth
 from grainfront.studies.stability.expectations import unmet
 from grainfront.studies.stability.matrix import exponents, measure
 from grainfront.studies.stability.record import quantities
@@ -23,6 +23,7 @@ def measure_stability(
     cases: Mapping[str, Case] = CASES,
     ratios: Sequence[float] = RATIOS,
     offsets: Sequence[float] = OFFSETS,
+    edges: Sequence[int] = EDGES,
 ) -> dict[str, np.ndarray]:
     """Run all cases and measure the growth of errors: the arrays of `files.stability`.
 
@@ -33,4 +34,4 @@ def measure_stability(
         raise InputError(
             f"stability: {len(failures)} expectations are not met: {'; '.join(failures)}"
         )
-    return quantities(rows, exponents(rows), measure_error_growth(ratios, offsets))
+    return quantities(rows, exponents(rows), measure_error_growth(ratios, offsets, edges))

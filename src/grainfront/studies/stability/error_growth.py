@@ -1,4 +1,4 @@
-"""Clearance against rounding: how far the domain may lie from the origin, how fine grains may be.
+"""Clearance against rounding, over offset, size ratio and number of edges.
 
 Packings are made with ever smaller clearances; the largest with which particles overlap or cross a
 wall is the rounding error that the clearance must stay above.
@@ -18,11 +18,15 @@ from grainfront.packing.state import CLEARANCE_ULPS, TOLERANCE_OF_CLEARANCE
 from grainfront.scene import Scene
 from grainfront.shapes.database import ShapeDatabase
 from grainfront.studies.stability.case import MODERATE, PLAIN, square
+from grainfront.studies.stability.outlines import many_edges
 from grainfront.studies.stability.rounding import departure, ulp
 
 RATIOS = (1.0, 10.0, 100.0, 1000.0)
 OFFSETS = (0.0, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7)
+EDGES = (4, 8, 40, 200, 500, 2000)
 SEEDS = (1, 2)
+# Side of the domain for shapes of so many edges.
+SIDE_OF_EDGES = 20.0
 # Sides of the domains, in largest grains: 500 particles of equal size, some thousand else.
 SIDE = 25.0
 # Clearances tried, in ulps, largest first.
@@ -31,12 +35,13 @@ TRIED_ULPS = tuple(2.0**power for power in range(5, -8, -1))
 
 @dataclass(frozen=True)
 class ErrorGrowth:
-    """Arrays of shape (n_ratios, n_offsets), but `ratio`, (n_ratios,), and `offset`, (n_offsets,).
+    """Arrays of shape (n_ratios, n_offsets), and others of `ratio`, `offset` and `edges` alone.
 
     Offsets of the domain from the origin are in mean sizes. `farthest`, the farthest coordinate of
     the domain, and `clearance` are in sizes of the smallest grain; `rounding` is the largest
-    clearance that was too small and `departure` the largest departure from the exact transformation
-    of a shape, both in ulps of the farthest coordinate.
+    clearance tried that was too small, and `departure` the largest departure from the exact
+    transformation of a shape, both in ulps of the farthest coordinate. `edges_rounding`, of the
+    shape of `edges`, is the rounding of equal ellipses of so many edges, near the origin.
     """
 
     ratio: np.ndarray
@@ -45,12 +50,16 @@ class ErrorGrowth:
     clearance: np.ndarray
     rounding: np.ndarray
     departure: np.ndarray
+    edges: np.ndarray
+    edges_rounding: np.ndarray
 
 
 def measure_error_growth(
-    ratios: Sequence[float] = RATIOS, offsets: Sequence[float] = OFFSETS
+    ratios: Sequence[float] = RATIOS,
+    offsets: Sequence[float] = OFFSETS,
+    edges: Sequence[int] = EDGES,
 ) -> ErrorGrowth:
-    """Pack at all pairs of size ratio and offset, with all clearances tried."""
+    """Pack at all pairs of size ratio and offset, and shapes of all numbers of edges."""
     shape = len(ratios), len(offsets)
     farthest, clearance, rounding, departures = np.zeros((4, *shape))
     database = MODERATE.database()
@@ -62,13 +71,30 @@ def measure_error_growth(
         unit = ulp(domain)
         farthest[at] = domain.x_max / size.support[0]
         clearance[at] = CLEARANCE_ULPS * unit / size.support[0]
-        rounding[at] = next((ulps for ulps in TRIED_ULPS if not _holds(scene, database, ulps)), 0.0)
+        rounding[at] = _rounding(scene, database)
         departures[at] = max(
             departure(api.pack(scene, database, seed)[0], database) for seed in SEEDS
         )
     return ErrorGrowth(
-        np.array(ratios), np.array(offsets), farthest, clearance, rounding, departures
+        np.array(ratios),
+        np.array(offsets),
+        farthest,
+        clearance,
+        rounding,
+        departures,
+        np.array(edges, dtype=np.int64),
+        np.array([_rounding_of_edges(n) for n in edges]),
     )
+
+
+def _rounding_of_edges(n: int) -> float:
+    case = replace(MODERATE, shapes=many_edges(n), domain=square(SIDE_OF_EDGES), size=Constant(1.0))
+    return _rounding(case.scene(PLAIN), case.database())
+
+
+def _rounding(scene: Scene, database: ShapeDatabase) -> float:
+    """The largest clearance tried, in ulps, of which the certificate fails; 0 if none."""
+    return next((ulps for ulps in TRIED_ULPS if not _holds(scene, database, ulps)), 0.0)
 
 
 def _sizes(ratio: float) -> Law:

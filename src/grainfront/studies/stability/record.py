@@ -61,6 +61,8 @@ def quantities(
         "clearance": growth.clearance,
         "rounding": growth.rounding,
         "growth_departure": growth.departure,
+        "edges": growth.edges,
+        "edges_rounding": growth.edges_rounding,
         "clearance_ulps": np.array(CLEARANCE_ULPS),
     }
 
