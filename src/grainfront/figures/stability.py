@@ -41,15 +41,20 @@ def stability(found: Quantities) -> Figure:
                   for law in ("size", "orientation")]  # fmt: skip
     worst = np.fmax(*errors)
     shown = (found["relative_fraction"], found["growth"], worst)
-    titles = ("volume fraction", "kernel time a particle", "E2 over its noise level")  # fmt: skip
-    for axes, values, letter, title in zip(panels, shown, "abc", titles, strict=True):
+    titles = ("volume fraction", "kernel time a particle", "E2")
+    labels = ("over the moderate case's", "over the moderate case's",
+              "the larger of S and α, over its noise level")  # fmt: skip
+    for axes, values, letter, title, label in zip(
+        panels, shown, "abc", titles, labels, strict=True
+    ):
+        axes.set_xlabel(label)
         panel_letter(axes, letter, title)
         _grid(axes, len(cases))
-        for which, colour, label in (
+        for which, colour, effort in (
             (plain, PLAIN_COLOUR, "n_angle = n_loc = 1"),
             (~plain, OPTIMISED_COLOUR, "24 / 20, or as named"),
         ):
-            axes.plot(values[which], place[which], "o", color=colour, markersize=3, label=label)
+            axes.plot(values[which], place[which], "o", color=colour, markersize=3, label=effort)
         axes.set_xscale("log")
         axes.axvline(1.0, color=INK, linewidth=0.6)
     refused = np.unique(place[found["refusal"] != ""])
@@ -99,6 +104,7 @@ def _draw_clearance(axes: Axes, found: Quantities) -> None:
     axes.set_yscale("log")
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_major_formatter(LogFormatterMathtext())
+    axes.set_ylim(top=300.0 * float(found["clearance"].max()))  # room for the legend
     axes.set_xlabel("offset of the domain from the origin (mean sizes)")
     axes.set_ylabel("length (smallest sizes)")
     axes.legend(loc="upper left")

@@ -77,13 +77,20 @@ def noise(one: Found, fractions: np.ndarray, other: Found, others: np.ndarray) -
 
 
 def measure(cases: Mapping[str, Case]) -> Iterator[Row]:
-    """Run all cases at all their efforts."""
-    moderate = {effort: run(MODERATE, effort) for effort in (PLAIN, OPTIMISED)}
+    """Run all cases at all their efforts; efforts but PLAIN are compared with OPTIMISED."""
+    moderate: dict[Effort, Found] = {}
     for case in cases.values():
         for effort in case.efforts:
-            is_moderate = case is MODERATE
-            found = moderate[effort] if is_moderate else run(case, effort)
-            yield Row(case, effort, found, moderate.get(effort, moderate[OPTIMISED]))
+            beside = beside_effort(effort)
+            if beside not in moderate:
+                moderate[beside] = run(MODERATE, beside)
+            found = moderate[beside] if case is MODERATE else run(case, effort)
+            yield Row(case, effort, found, moderate[beside])
+
+
+def beside_effort(effort: Effort) -> Effort:
+    """The effort of the moderate case with which another is compared."""
+    return PLAIN if effort == PLAIN else OPTIMISED
 
 
 def exponents(rows: Iterable[Row]) -> dict[tuple[str, Effort], float]:
@@ -94,10 +101,9 @@ def exponents(rows: Iterable[Row]) -> dict[tuple[str, Effort], float]:
     points: dict[tuple[str, Effort], list[tuple[float, float]]] = {}
     for row in rows:
         if row.case.series:
-            # along a series of efforts, all of its cases are one
-            effort = row.effort if row.effort in (PLAIN, OPTIMISED) else OPTIMISED
-            point = (row.case.at, row.microseconds)
-            points.setdefault((row.case.series, effort), []).append(point)
+            # along a series of efforts, those of its cases count as one
+            key = row.case.series, beside_effort(row.effort)
+            points.setdefault(key, []).append((row.case.at, row.microseconds))
     fits = {}
     for key, of_series in points.items():
         at, time = np.log(np.array(of_series)).T
