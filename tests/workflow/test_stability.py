@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import dataclasses
+import json
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -26,6 +29,34 @@ def test_the_target_plans_a_record_and_a_report_whatever_the_scenes(project):
         "stability": 1, "stability_record": 1, "stability_report": 1
     }  # fmt: skip
     assert not {"stability_record", "stability_report"} & set(project.planned())
+
+
+SMALL_STUDY = """
+import dataclasses, json, sys
+import grainfront.files.stability
+from grainfront import stages
+from grainfront.studies.stability import measure_stability
+from grainfront.studies.stability.case import MODERATE, PLAIN, square
+small = dataclasses.replace(MODERATE, domain=square(8.0), efforts=(PLAIN,), seeds=1)
+measure_stability({"small": small}, ratios=(10.0,), offsets=(0.0,), edges=(4,))
+print(json.dumps(sorted(sys.modules)))
+"""
+
+
+def test_the_digest_covers_what_the_study_imports():
+    command = [sys.executable, "-c", SMALL_STUDY]
+    run = subprocess.run(command, capture_output=True, text=True, check=True)
+    modules = json.loads(run.stdout)
+    covered = stages.SOURCES["stability"]
+    ours = [name.removeprefix("grainfront.") for name in modules if name.startswith("grainfront.")]
+    uncovered = [
+        name
+        for name in ours
+        if not any(f"{name}.".startswith(f"{part}.") for part in covered)
+        and not any(part.startswith(f"{name}.") for part in covered)  # an __init__ above
+    ]
+    assert uncovered == []
+    assert not {"matplotlib", "pyvista", "skimage"} & {name.split(".")[0] for name in modules}
 
 
 def test_record_table_and_pictures_are_written(tmp_path, monkeypatch):
