@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from grainfront.laws import Constant, Uniform
 from grainfront.particles import Rectangle
-from grainfront.studies.stability.case import PLAIN, Case, square
+from grainfront.studies.stability.case import PLAIN, STEERED, Case, square
 
-STEERED = "it ends where no grain in waiting fits in an orientation that its law still lacks"
 FEW = "the few particles share the tries that end a packing, and the start of the kernel"
 
 OFFSETS = [

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from grainfront.shapes.sources import Rectangles, RegularPolygon
-from grainfront.studies.stability.case import MOST_GROWTH, SEEDS, Case, square
+from grainfront.studies.stability.case import MOST_GROWTH, SEEDS, STEERED, Case, square
 from grainfront.studies.stability.outlines import bulging, many_edges, sliver, tilted
 
 LONG = "long grains leave wide gaps, most of all where each has one orientation alone"
-FAN = "slivers fan out in the corners and may bury others that stick out: the packing ends early"
 MANY_EDGES = "the new particle is turned and tested edge by edge: time grows with their number"
 
 # Part of the moderate case's volume fraction that is reached at least.
@@ -51,7 +50,7 @@ SLIVERS = [
         shapes=sliver(float(ratio)),
         domain=square(4.0 * ratio),
         least_fraction=0.1 / ratio,
-        reason=FAN,
+        reason=STEERED,
     )
     for ratio in (30, 300)
 ]
