@@ -11,6 +11,7 @@ include: "workflow/rules/vtk.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/sweep.smk"
 include: "workflow/rules/error_vs_time.smk"
+include: "workflow/rules/stability.smk"
 
 
 # Everything that the scenes name.

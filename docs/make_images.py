@@ -1,7 +1,8 @@
 """Draw the pictures of README and docs from shipped scenes: `python docs/make_images.py`.
 
-Those of errors against run time come from a record, which takes minutes to make:
-`python docs/make_images.py results/error_vs_time_gravel/error_vs_time.nc`.
+Those of errors against run time and of stability come from records, which take minutes to make:
+`python docs/make_images.py results/error_vs_time_gravel/error_vs_time.nc`, and
+`python docs/make_images.py results/stability/stability.nc`.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from PIL import Image
 from grainfront import api, figures
 from grainfront.files.contour import Contour
 from grainfront.files.error_vs_time import read_error_vs_time
+from grainfront.files.stability import read_stability
 from grainfront.scene import Scene
 from grainfront.scene_regions import distances
 from grainfront.shapes.images import find_outlines
@@ -73,7 +75,12 @@ def packing_of(name: str) -> Figure:
 
 
 def draw_record(path: str) -> None:
-    """Draw the axes of a record of errors against run time."""
+    """Draw the stability matrix, or the axes of a record of errors against run time."""
+    if Path(path).stem == "stability":
+        found = read_stability(path)
+        save_small(figures.stability(found), IMAGES / "stability.png")
+        save_small(figures.clearance(found), IMAGES / "clearance.png")
+        return
     _, axes = read_error_vs_time(path)
     for axis, quantities in axes.items():
         figure = figures.error_vs_time(axis, quantities)

@@ -17,6 +17,7 @@ from grainfront.errors import InputError
 from grainfront.particles import Cell, Region
 from grainfront.scene import Scene
 from grainfront.scene import load_scene as load_scene
+from grainfront.scene_packing import empty_packing as empty_packing
 from grainfront.scene_packing import pack as pack
 from grainfront.scene_packing import pack_to_target as pack_to_target
 from grainfront.scene_packing import shape_coverage as shape_coverage

@@ -12,6 +12,7 @@ import numpy as np
 from grainfront.errors import InputError
 from grainfront.particles import Cell
 from grainfront.scene import Scene
+from grainfront.scene_limits import require_memory, require_outlined, require_resolved
 
 if TYPE_CHECKING:
     from grainfront.draw import Coverage
@@ -31,14 +32,6 @@ DRAW_STAGE, PACKING_STAGE = 1, 2
 AREA_MARGIN = 1.05
 # The largest size that is reckoned with is exceeded by this share of the particles, at most.
 SMALLEST_SHARE = 2.0**-53
-# Bytes that a packing takes up to its certificate and its statistics, at most: for each particle
-# drawn and for each node of its hull (measured: 900 for rectangles, 1500 for hulls of 31 nodes).
-BYTES_A_PARTICLE, BYTES_A_NODE = 1000, 40
-# A packing is refused that needs more memory than this by that estimate.
-MOST_GIGABYTES = 16
-# A grain is at least so many times as wide as the clearance, which is 64 roundings of a coordinate:
-# beyond that, rounding would bend its outline.
-CLEARANCES_A_GRAIN = 1e3
 
 
 def pack(
@@ -62,10 +55,18 @@ def pack(
         return pack_to_target(scene, database, seed, progress)[:2]
     if isinstance(scene.domain, Cell):
         return _pack_cell(scene, scene.domain, database, seed, progress)
-    empty = _empty(scene, database, seed, _generator(seed, PACKING_STAGE))
+    empty = empty_packing(scene, database, seed)
     packing, run_time = fill(empty, database.descriptors["aspect_ratio"], progress)
     _require_particles(scene, packing)
     return packing, run_time
+
+
+def empty_packing(scene: Scene, database: ShapeDatabase, seed: int) -> State:
+    """The domain of the scene without any particle, and all that it needs to be filled.
+
+    `pack` fills it with `grainfront.packing.pack.fill`, and raises what this raises.
+    """
+    return _empty(scene, database, seed, _generator(seed, PACKING_STAGE))
 
 
 def pack_to_target(
@@ -112,7 +113,7 @@ def _pack_cell(
     """As `pack`, for a domain that repeats itself."""
     from grainfront.packing.periodic import area_to_fill, pack_periodic
 
-    _require_resolved(scene)
+    require_resolved(scene)
     shape_coverage(scene, database)
     aspect_ratio = database.descriptors["aspect_ratio"]
     radius = 0.5 * float(aspect_ratio.mean()) * scene.size.moment(1)
@@ -162,7 +163,7 @@ def _empty(scene: Scene, database: ShapeDatabase, seed: int, rng: np.random.Gene
     """The domain of the scene, without any particle yet, and the particles to be packed."""
     from grainfront.packing.prepare import prepare
 
-    _require_resolved(scene)
+    require_resolved(scene)
     shape_coverage(scene, database)
     if scene.arrangement is not None:
         return _empty_arranged(scene, database, seed, rng)
@@ -197,7 +198,7 @@ def _empty_arranged(
     ]
     shape, size = (np.concatenate(parts) for parts in zip(*drawn, strict=True))
     last = np.cumsum([one.size for _, one in drawn])
-    _require_memory(scene, database, size.size)
+    require_memory(scene, database, size.size)
     effort = scene.packing
     empty = prepare(
         database.hulls,
@@ -233,60 +234,6 @@ def _require_particles(scene: Scene, packing: Packing) -> None:
         )
 
 
-def _clearance(scene: Scene) -> float:
-    """The clearance that rounding calls for in the domain of a scene."""
-    from grainfront.packing.state import CLEARANCE_ULPS
-
-    domain = scene.domain
-    farthest = max(map(abs, (domain.x_min, domain.y_min, domain.x_max, domain.y_max)))
-    return CLEARANCE_ULPS * float(np.spacing(1.0)) * farthest
-
-
-def _require_resolved(scene: Scene) -> None:
-    """Raise InputError where the rounding of coordinates would open the contacts of the grains."""
-    from grainfront.particles import CONTACT_TOLERANCE
-
-    # the clearance between placed particles may take up half of a contact's tolerance
-    allowed = 0.5 * CONTACT_TOLERANCE * scene.size.moment(1)
-    clearance = _clearance(scene)
-    if clearance > allowed:
-        domain = scene.domain
-        farthest = max(map(abs, (domain.x_min, domain.y_min, domain.x_max, domain.y_max)))
-        raise InputError(
-            f"{scene.name}: domain reaches to a coordinate of {farthest:g}, but must stay within "
-            f"{farthest * allowed / clearance:.3g}, beyond which rounding spoils the contacts of "
-            "grains of these sizes"
-        )
-
-
-def _require_outlined(scene: Scene, size: np.ndarray) -> None:
-    """Raise InputError where the rounding of coordinates would bend the smallest outlines."""
-    least = CLEARANCES_A_GRAIN * _clearance(scene)
-    if size.min() < least:
-        raise InputError(
-            f"{scene.name}: size: the smallest grain drawn has a size of {size.min():.3g}, but it "
-            f"must be at least {least:.3g} in this domain, below which rounding spoils its outline"
-        )
-
-
-def _require_memory(scene: Scene, database: ShapeDatabase, n: int) -> None:
-    """Raise InputError where `n` particles, drawn at once, need too much memory."""
-    from grainfront.packing import search_of
-    from grainfront.packing.memory import n_bytes
-
-    effort = scene.packing
-    needed = n * (BYTES_A_PARTICLE + BYTES_A_NODE * float(database.hulls.node_counts.mean()))
-    if search_of(effort.n_angle, effort.n_loc) == "pruned":
-        needed += n_bytes(effort.n_angle, effort.n_loc)
-    if needed > MOST_GIGABYTES * 1e9:
-        raise InputError(
-            f"{scene.name}: a domain of {scene.domain.width:g} × {scene.domain.height:g} takes "
-            f"{n:,} particles of these sizes to fill and, with n_angle {effort.n_angle} and "
-            f"n_loc {effort.n_loc}, some {needed / 1e9:,.0f} GB of memory, but at most "
-            f"{MOST_GIGABYTES} GB are allowed"
-        )
-
-
 def _draw_enough(
     scene: Scene,
     database: ShapeDatabase,
@@ -307,14 +254,14 @@ def _draw_enough(
     narrowest = min(scene.domain.width, scene.domain.height)
     n = math.ceil(AREA_MARGIN * area / mean_area) + WAITING_PLACES
     while True:
-        _require_memory(scene, database, n)
+        require_memory(scene, database, n)
         rng = _generator(*key)
         shape, size = draw_particles(database.count, laws.size, n, rng, matched)
         of_each = np.where(size <= narrowest, hull_area[shape] * size**2, 0.0)
         largest = np.partition(of_each, -WAITING_PLACES)[-WAITING_PLACES:]
         wanted = area + largest.sum()
         if of_each.sum() >= wanted or not of_each.any():
-            _require_outlined(scene, size)
+            require_outlined(scene, size)
             return shape, size
         n = math.ceil(AREA_MARGIN * n * wanted / of_each.sum())
 

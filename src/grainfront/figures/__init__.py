@@ -11,9 +11,11 @@ from grainfront.figures.packing import packing
 from grainfront.figures.photograph import photograph
 from grainfront.figures.rose import rose
 from grainfront.figures.signed_distance import signed_distance
+from grainfront.figures.stability import clearance, stability
 from grainfront.figures.style import save_png
 
 __all__ = [
+    "clearance",
     "contacts",
     "contour",
     "error_vs_time",
@@ -23,4 +25,5 @@ __all__ = [
     "rose",
     "save_png",
     "signed_distance",
+    "stability",
 ]

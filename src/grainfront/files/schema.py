@@ -15,9 +15,13 @@ from grainfront.files.contour import CONTOUR, CONTOUR_TIMING
 from grainfront.files.contract import CONTACTS, PACKING, SHAPES, STATISTICS
 from grainfront.files.error_vs_time import ERROR_VS_TIME
 from grainfront.files.header import cdl, json_schema
+from grainfront.files.stability import STABILITY
 from grainfront.files.target import TARGET
 
-CONTRACTS = (SHAPES, PACKING, CONTACTS, STATISTICS, CONTOUR, CONTOUR_TIMING, ERROR_VS_TIME, TARGET)
+CONTRACTS = (
+    SHAPES, PACKING, CONTACTS, STATISTICS, CONTOUR, CONTOUR_TIMING, ERROR_VS_TIME, STABILITY,
+    TARGET,
+)  # fmt: skip
 """Those of all result datasets."""
 
 

@@ -14,6 +14,7 @@ from grainfront.stages.results import (
     statistics,
 )
 from grainfront.stages.sources import SOURCES, sources_digest
+from grainfront.stages.stability import stability, stability_report
 from grainfront.stages.sweep import contour, contour_picture, sweep
 
 __all__ = [
@@ -32,6 +33,8 @@ __all__ = [
     "replacement",
     "shapes",
     "sources_digest",
+    "stability",
+    "stability_report",
     "statistics",
     "sweep",
     "vtk",

@@ -10,8 +10,7 @@ _ALWAYS = (
     "__init__", "api", "arrangement.polygons_file", "arrangement.regions", "arrangement.resolve",
     "arrangement.silhouette", "arrangement.zones", "checked_yaml", "errors", "image_files",
     "particles", "polygons", "scene", "scene_arrangement", "scene_domain", "scene_laws",
-    "scene_packing",
-    "scene_statistics", "stages",
+    "scene_limits", "scene_packing", "scene_statistics", "stages",
 )  # fmt: skip
 _FILES = (
     "files.atomic", "files.contract", "files.dataset", "files.header", "files.netcdf", "files.seal",
@@ -44,6 +43,11 @@ SOURCES = {
         "studies", "files.error_vs_time", *_REGIONS, *_FILES, *_LAWS,
     ),
     "error_vs_time_picture": ("figures", "files.error_vs_time", *_FILES, *_LAWS),
+    "stability": (
+        "certificate", "draw", "geometry", "jit", "packing", "shapes", "statistics",
+        "studies.stability", "files.stability", *_REGIONS, *_FILES, *_LAWS,
+    ),
+    "stability_report": ("figures", "files.stability", "files.stability_table", *_FILES, *_LAWS),
     "arrangement_picture": ("figures", "geometry", "jit", "files.atomic", *_REGIONS, *_LAWS),
     "vtk": ("files.vtk", *_FILES, *_LAWS),
     "figures": (

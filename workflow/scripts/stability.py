@@ -1,0 +1,3 @@
+from grainfront import stages
+
+stages.stability(record=snakemake.output.record)
