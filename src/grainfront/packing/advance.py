@@ -34,7 +34,7 @@ MOST_RISE = 1.0
 
 # What the loop remembers between calls; LAW and TURN: of whose waiting particles it tries which.
 N_PLACED, N_TOO_LARGE, LAW, TURN, REGIONS_TRIED, N_FAILED = range(6)
-PLACED_IN_ROW, TOO_HIGH_IN_ROW, FINISHED = range(6, 9)
+PLACED_IN_ROW, TOO_HIGH_IN_ROW, FINISHED, EMPTY_ROWS = range(6, 10)
 N_COUNTERS = 12
 # Each failure moves the random offset of the next trial orientations on by the golden ratio, so
 # that a particle that is tried again is tried in other orientations.
@@ -88,8 +88,14 @@ def end_row(front, queues, counters):
             parked_more = True
         if not exhausted(queues, law):
             left = True
-    if not left or (counters[PLACED_IN_ROW] == 0 and not parked_more):
-        counters[FINISHED] = 1
+    if counters[PLACED_IN_ROW] > 0:
+        counters[EMPTY_ROWS] = 0
+    elif not left or not parked_more:
+        # once more in orientations that the laws do not lack yet: there may be room in just these
+        counters[EMPTY_ROWS] += 1
+        queues.parked[:] = 0
+        if counters[EMPTY_ROWS] > 1:
+            counters[FINISHED] = 1
     counters[PLACED_IN_ROW] = 0
     counters[TOO_HIGH_IN_ROW] = 0
     move_gap(front, 1)
@@ -243,7 +249,8 @@ def advance(
         if control is not None:
             effort = effort_now(control)
             n_angle, n_loc = spend(control, effort, source, offset, most_n_angle, most_n_loc)
-        draw_orientations(laws, law, trials, n_angle, queues.n_placed[law], offset)
+        ahead = counters[EMPTY_ROWS] * laws.probability.shape[1]
+        draw_orientations(laws, law, trials, n_angle, queues.n_placed[law] + ahead, offset)
         particle = turn_and_inflate(supply, source, domain.clearance, trials, n_angle)
         highest = np.inf
         if arrangement is not None:

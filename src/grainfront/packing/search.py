@@ -10,6 +10,8 @@ sizes 1 to 4) the choice was that of exhaustive search, without exception.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from grainfront.geometry.contact import contact_from_guess
@@ -155,8 +157,13 @@ def choose_lowest(
     )  # fmt: skip
     sort_pairs(memory, last + 1 - first)
     best = no_trial_below(highest)
+    # whose centre is higher than this crosses the top
+    below_top = domain.y_max + domain.tolerance - inradius
     for n in range(last + 1 - first):
         p = memory.order[n]
+        if below_top < memory.bound[p] < math.inf:
+            best = lower(best, (TOO_HIGH, math.inf, math.inf, -1, -1, -1))
+            break
         if memory.bound[p] > best[2]:
             break
         i = first + p

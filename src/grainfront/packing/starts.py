@@ -13,6 +13,7 @@ import numpy as np
 
 from grainfront.jit import inlined, kernel
 from grainfront.packing.advance import (
+    EMPTY_ROWS,
     FINISHED,
     N_PLACED,
     PLACED_IN_ROW,
@@ -174,6 +175,7 @@ def start_front(
     counters[N_PLACED] += 1
     counters[PLACED_IN_ROW] = 1
     counters[TOO_HIGH_IN_ROW] = 0
+    counters[EMPTY_ROWS] = 0
     counters[FINISHED] = 0
     queues.n_placed[chosen] += 1
     queues.parked[:] = 0

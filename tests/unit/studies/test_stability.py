@@ -261,3 +261,14 @@ def test_a_run_of_a_case_repeats_but_for_its_times():
     one.pop("kernel_s")
     for name, value in one.items():
         assert np.array_equal(value, other[name]), name
+
+
+@pytest.mark.parametrize("name", ["domain 1000:1", "one grain wide"])
+def test_a_narrow_domain_is_filled_whatever_orientation_its_law_lacks(name):
+    case = CASES[name]
+    for seed in (1, 4):
+        packing = _pack(case.scene((24, 20) if "grain" in name else PLAIN), case.database(), seed)[
+            1
+        ]
+        assert packing.x.max() > 0.99 * case.domain.width - 1.5
+        assert packing.y.max() > 0.97 * case.domain.height - 1.5
