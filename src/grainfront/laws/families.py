@@ -19,6 +19,20 @@ from grainfront.laws.law import Law, require, require_finite, require_positive
 LEAST_SHARE_KEPT = 1e-9
 
 
+def require_kept(below: float, up_to: float, minimum: float | None, maximum: float | None) -> None:
+    """Raise InputError where a range keeps next to nothing of a law.
+
+    `below` and `up_to` are the shares of the law below the range's minimum and up to its maximum.
+    """
+    lower = -np.inf if minimum is None else minimum
+    upper = np.inf if maximum is None else maximum
+    require(
+        up_to - below >= LEAST_SHARE_KEPT,
+        f"the range from {lower:g} to {upper:g} holds {max(up_to - below, 0.0):.1g} of the "
+        f"law, but must hold at least {LEAST_SHARE_KEPT:g}",
+    )
+
+
 @dataclass(frozen=True, kw_only=True)
 class TruncatedLaw(Law):
     """A family truncated to [`minimum`, `maximum`]; an end that is None stays as the family has it.
@@ -45,14 +59,7 @@ class TruncatedLaw(Law):
                 self.minimum < self.maximum,
                 f"minimum is {self.minimum:g}, but must be less than maximum, {self.maximum:g}",
             )
-        below, up_to = self._kept()
-        lower = -np.inf if self.minimum is None else self.minimum
-        upper = np.inf if self.maximum is None else self.maximum
-        require(
-            up_to - below >= LEAST_SHARE_KEPT,
-            f"the range from {lower:g} to {upper:g} holds {max(up_to - below, 0.0):.1g} of the "
-            f"law, but must hold at least {LEAST_SHARE_KEPT:g}",
-        )
+        require_kept(*self._kept(), self.minimum, self.maximum)
 
     def _kept(self) -> tuple[float, float]:
         """Shares of the whole below the minimum and up to the maximum."""

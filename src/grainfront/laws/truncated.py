@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from grainfront.laws.families import LEAST_SHARE_KEPT
-from grainfront.laws.law import Law, require, require_finite
+from grainfront.laws.families import require_kept
+from grainfront.laws.law import Law, require_finite
 
 
 @dataclass(frozen=True)
@@ -24,14 +24,7 @@ class Truncated(Law):
 
     def __post_init__(self) -> None:
         require_finite(minimum=self.minimum, maximum=self.maximum)
-        below, up_to = self._kept()
-        lower = -np.inf if self.minimum is None else self.minimum
-        upper = np.inf if self.maximum is None else self.maximum
-        require(
-            up_to - below >= LEAST_SHARE_KEPT,
-            f"the range from {lower:g} to {upper:g} holds {max(up_to - below, 0.0):.1g} of the "
-            f"law, but must hold at least {LEAST_SHARE_KEPT:g}",
-        )
+        require_kept(*self._kept(), self.minimum, self.maximum)
 
     def _kept(self) -> tuple[float, float]:
         """Shares of the law below the minimum and up to the maximum."""
