@@ -28,7 +28,7 @@ MOST_E2 = 1.0
 MOST_LOST = 1e-9
 
 # Why packings of slivers and of narrow domains may leave much of the domain empty.
-STEERED = "it ends where no grain in waiting fits in an orientation that its law still lacks"
+STEERED = "it ends where no grain in waiting fits in the orientations that its law offers"
 
 
 def square(side: float, x: float = 0.0, y: float = 0.0) -> Rectangle:
