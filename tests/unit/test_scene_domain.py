@@ -190,15 +190,15 @@ def test_a_cell_too_narrow_is_refused(tmp_path):
         api.pack(scene, api.build_shapes(scene), 1)
 
 
-@pytest.mark.parametrize(("height", "placed"), [(0.81, 0), (0.85, 3)])
-def test_a_cell_hardly_higher_than_its_grains(tmp_path, height, placed):
+@pytest.mark.parametrize(("height", "some"), [(0.81, False), (0.85, True)])
+def test_a_cell_hardly_higher_than_its_grains(tmp_path, height, some):
     """No grain is left to be cut out of what was packed, and few or none fit in afterwards."""
     low = f"domain: {{width: 20, height: {height}, periodic: [x]}}"
     scene = load(tmp_path, (PLAIN, low))
     database = api.build_shapes(scene)
-    if placed:
+    if some:
         packing, _ = api.pack(scene, database, 1)
-        assert packing.x.size == placed and api.certify(packing).holds
+        assert 0 < packing.x.size < 10 and api.certify(packing).holds
     else:
         with pytest.raises(InputError, match=r"s: no particle fits into the domain of 20 by 0.81"):
             api.pack(scene, database, 1)
