@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import contextlib
 import io
+import json
+import os
 import tempfile
 from functools import cache
 from pathlib import Path
 
 import numpy as np
 from hypothesis import strategies as st
+from invariants import check_packing, require_one_sentence
 
 from grainfront import api
 from grainfront.arrangement.polygons_file import read_polygons
@@ -17,6 +20,7 @@ from grainfront.cli import main
 from grainfront.errors import InputError
 from grainfront.files import netcdf
 from grainfront.files.statistics import read_statistics
+from grainfront.particles import Region
 
 SCENE = """seeds: [3, 4]
 length_unit: mm
@@ -36,6 +40,12 @@ target_volume_fraction: 0.7
 replacement: true
 outputs: [vtk]
 """
+REST_OF_SCENE = {
+    "seed": 1,
+    "shapes": {"family": {"fourier_grain": {"count": 3}}},
+    "size": {"constant": 0.8},
+    "packing": {"n_angle": 2, "n_loc": 2},
+}
 OUTLINES = {
     "a.geojson": '{"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {}, '
     '"geometry": {"type": "Polygon", "coordinates": [[[0, 0], [3, 0], [3, 1.5], [0, 2], [0, 0]]]}},'
@@ -44,6 +54,17 @@ OUTLINES = {
     "MULTIPOLYGON (((0 0, 1 0, 0 1, 0 0)), ((5 5, 6 5, 5 6.5, 5 5)))\n",
     "a.csv": "outline,x,y\n1,0,0\n1,2,0\n1,1,2.5\nb,0,0\nb,3,0\nb,3,1\nb,0,1e0\n",
 }
+# A domain and obstacles in it, as files beside a scene.
+DOMAINS = {
+    "domain.geojson": '{"type": "Polygon", "coordinates": [[[0, 0], [6, 0], [6, 5], [3, 4], '
+    "[0, 5e0], [0, 0]], [[2, 2], [2, 3], [3, 3], [2, 2]]]}",
+    "domain.wkt": "MULTIPOLYGON (((0 0, 5 0, 5 5, 0 5, 0 0)), ((6 0, 9 0, 9 3, 6 0)))\n",
+    "stones.geojson": '{"type": "Feature", "properties": null, "geometry": {"type": "MultiPolygon",'
+    ' "coordinates": [[[[1, 1], [2, 1], [2, 2], [1, 1]]], [[[3, 0], [4, 1], [3, 1], [3, 0]]]]}}',
+    "stones.wkt": "POLYGON ((1 1, 2 1, 2 2, 1 2, 1 1))\nPOLYGON ((3 3, 5 3, 5 4.5, 3 3))\n",
+}
+# Larger domains that damage leads to are loaded, and not packed.
+MOST_AREA = 100.0
 IMAGES = ("a.png", "a.tif", "a.jpg", "a.gif", "a.bmp", "a.pgm")
 RESULTS = {
     "packing.nc": netcdf.read_packing,
@@ -51,7 +72,7 @@ RESULTS = {
     "contacts.nc": netcdf.read_contacts,
     "statistics.nc": read_statistics,
 }
-KINDS = ("scene.yaml", *OUTLINES, *IMAGES, *RESULTS)
+KINDS = ("scene.yaml", *OUTLINES, *DOMAINS, *IMAGES, *RESULTS)
 
 # What means something in one kind of file or another.
 TOKENS = [
@@ -70,6 +91,8 @@ def whole(kind: str) -> bytes:
         return SCENE.encode()
     if kind in OUTLINES:
         return OUTLINES[kind].encode()
+    if kind in DOMAINS:
+        return DOMAINS[kind].encode()
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / kind
         if kind in IMAGES:
@@ -137,6 +160,8 @@ def check_file(kind: str, content: bytes) -> str:
         path.write_bytes(content)
         if kind in RESULTS:
             return _check_result(kind, path, content)
+        if kind in DOMAINS:
+            return _check_domain(path)
         if kind in ("a.geojson", "a.wkt"):
             _check_zone(path)
         if kind == "scene.yaml":
@@ -148,7 +173,7 @@ def _check_result(kind: str, path: Path, content: bytes) -> str:
     try:
         RESULTS[kind](path)
     except InputError as error:
-        assert api.sentence(error).count("\n") == 0
+        require_one_sentence(error)
         return "refused"
     assert content == whole(kind), "damage went unnoticed"
     return "valid"
@@ -158,16 +183,39 @@ def _check_zone(path: Path) -> None:
     try:
         area = read_polygons(str(path)).area
     except InputError as error:
-        assert api.sentence(error).count("\n") == 0
+        require_one_sentence(error)
     else:
         assert np.isfinite(area) and area > 0
+
+
+def _check_domain(path: Path) -> str:
+    """Load a scene in such a domain, or with such obstacles, and pack it where it is small."""
+    scene = path.with_name("scene.yaml")
+    around = {"domain": {"width": 6, "height": 5}, "obstacles": {"path": path.name}}
+    inside = {"domain": {"inside": {"file": {"path": path.name}}}}
+    described = inside if path.stem == "domain" else around
+    scene.write_text(json.dumps(described | REST_OF_SCENE))
+    try:
+        loaded = api.load_scene(scene)
+        assert isinstance(loaded.domain, Region)
+        assert 0 < loaded.domain.area < np.inf
+        if path.stem == "stones":
+            assert loaded.domain.area < 30
+        if loaded.domain.area > MOST_AREA or "NUMBA_DISABLE_JIT" in os.environ:
+            return "valid"
+        check_packing(scene, path.parent)
+    except InputError as error:
+        require_one_sentence(error)
+        return "refused"
+    return "valid"
 
 
 def _check_scene(path: Path) -> str:
     try:
         scene = api.load_scene(path)
     except InputError as error:
-        assert api.sentence(error).count("\n") == 0 and str(path) in str(error)
+        require_one_sentence(error)
+        assert str(path) in str(error)
         return "refused"
     assert scene.domain.area > 0 and scene.size.support[0] > 0
     return "valid"

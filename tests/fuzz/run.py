@@ -19,12 +19,13 @@ from grainfront.warm_up import compile_kernels
 
 sys.path.insert(0, str(Path(__file__).parent))
 from damage import check_file, damaged_files
-from scenes import check_scene, scenes
+from scenes import check_scene, kind_of, scenes
 
 EXAMPLES_A_TURN = 100
 HANGS_S = 300.0  # no example takes more than seconds
 SEARCHES = [f"{regions}{search}" for regions in ("", "arranged_")
-            for search in ("exhaustive", "pruned", "controlled")]  # fmt: skip
+            for search in ("exhaustive", "pruned", "controlled",
+                           "exhaustive_outlined", "pruned_outlined")]  # fmt: skip
 
 
 def main() -> None:
@@ -39,9 +40,9 @@ def main() -> None:
 
     @profile
     @given(scenes())
-    def try_scene(scene):
+    def try_scene(described):
         faulthandler.dump_traceback_later(HANGS_S, exit=True)
-        counts[f"scenes {check_scene(scene)}"] += 1
+        counts[f"{kind_of(described[0])} {check_scene(*described)}"] += 1
 
     @profile
     @given(damaged_files())

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 
 sys.path.insert(0, str(Path(__file__).parent))
-from damage import IMAGES, KINDS, OUTLINES, RESULTS, check_file, damaged_files, whole
+from damage import DOMAINS, IMAGES, KINDS, OUTLINES, RESULTS, check_file, damaged_files, whole
 from scenes import check_scene, scenes
 
 # Sequences are the same in each run, so that a failure is found again.
@@ -22,13 +22,19 @@ SHORT = settings(
 @pytest.mark.skipif("NUMBA_DISABLE_JIT" in os.environ, reason="takes too long uncompiled")
 @settings(SHORT, max_examples=40)
 @given(scenes())
-def test_random_scenes_are_packed_or_refused(scene):
-    check_scene(scene)
+def test_random_scenes_are_packed_or_refused(described):
+    check_scene(*described)
 
 
 @settings(SHORT, max_examples=150)
 @given(damaged_files(("scene.yaml", *OUTLINES)))
 def test_damaged_texts_are_valid_or_refused(damaged):
+    check_file(*damaged)
+
+
+@settings(SHORT, max_examples=60)
+@given(damaged_files(tuple(DOMAINS)))
+def test_damaged_domains_are_packed_or_refused(damaged):
     check_file(*damaged)
 
 
