@@ -49,6 +49,14 @@ def test_one_json_object_tells_pair_and_expectation(capsys):
     assert found["pilots"] > 30 and found["pilot_s"] > found["kernel_s"] > 0.0
 
 
+def test_that_regions_are_left_out_is_told(folder, capsys):
+    circle = "{inside: {circle: {centre: [7, 7], radius: 4}}, size: {finer_than: auto}}"
+    (folder / "s.yaml").write_text(f"{SCENE}arrangement: {{regions: [{circle}]}}\n")
+    assert main(["effort", "s.yaml", "--target", "0.75"]) == 0
+    told = capsys.readouterr().err
+    assert "warning: s.yaml: the pilot packings leave its regions out" in told
+
+
 def test_the_scene_may_have_the_target(folder, capsys):
     scene = "target_volume_fraction: 0.72\nreplacement: true\n" + SCENE
     (folder / "s.yaml").write_text(scene)
