@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import sys
 from pathlib import Path
@@ -69,3 +70,29 @@ def test_a_constant_orientation_beside_another_law():
     law = {"orientation": {"uniform": {"minimum": 0, "maximum": 90}}}
     arrangement = {"arrangement": {"regions": [region | law]}}
     assert check_scene(SMALL | {"orientation": {"constant": 30}} | arrangement) == "packed"
+
+
+def test_a_periodic_cell_lower_than_its_grains():
+    """Found by fuzzing: where none fits, none was left for the seam, which was a traceback."""
+    cell = {"domain": {"width": 12, "height": 0.8, "periodic": ["x"]}}
+    ends = {"minimum": 0.3, "maximum": 1.6}
+    size = {"size": {"lognormal": {"median": 1, "log_standard_deviation": 0.01, **ends}}}
+    assert check_scene(SMALL | cell | size) == "refused"
+
+
+def test_obstacles_that_leave_slivers_far_from_the_origin():
+    """Found by fuzzing: rounding outweighed the area of a slice, whose fraction was negative."""
+    far, d = 1500, 2.25e-6
+    outer = [[d, far + d], [4.5 - d, far + d], [4.5 - d, far + 4.5 - d], [d, far + 4.5 - d]]
+    inner = [[1.125, far + 1.125], [3.375, far + 1.125], [3.375, far + 3.375], [1.125, far + 3.375]]
+    rings = [[*ring, ring[0]] for ring in (outer, inner)]
+    stone = {"stones.geojson": json.dumps({"type": "Polygon", "coordinates": rings})}
+    domain = {
+        "domain": {"width": 4.5, "height": 4.5, "origin": [0, far]},
+        "obstacles": {"path": "stones.geojson"},
+        "shapes": {"family": {"regular_polygon": {"vertices": 3}}},
+        "size": {"constant": 1.5},
+        "orientation": {"constant": 0},
+        "packing": {"n_angle": 1, "n_loc": 1, "n_bin": 1},
+    }
+    assert check_scene(SMALL | domain, stone) == "packed"

@@ -132,15 +132,17 @@ def _area_between(polygons: Polygons, axis: int, low: float, high: float) -> flo
     """Area of polygons between two lines across an axis.
 
     By Green's theorem, the area of a polygon between x = a and x = b is the integral over its
-    boundary of min(max(x, a), b) dy.
+    boundary of min(max(x, a), b) dy; of lengths from a on, so that far from the origin rounding
+    does not outweigh thin slices.
     """
     nodes, offsets = polygons.nodes, polygons.offsets
     after = np.arange(1, len(nodes) + 1)
     after[offsets[1:] - 1] = offsets[:-1]
-    first, last = np.sort([nodes[:, axis], nodes[after, axis]], axis=0)
+    first, last = np.sort([nodes[:, axis], nodes[after, axis]], axis=0) - low
+    width = high - low
     # clipping bends an edge at the two lines at most, and the trapezium rule is exact in between
-    bends = np.array([first, np.clip(low, first, last), np.clip(high, first, last), last])
-    clipped = np.clip(bends, low, high)
+    bends = np.array([first, np.clip(0.0, first, last), np.clip(width, first, last), last])
+    clipped = np.clip(bends, 0.0, width)
     length = last - first
     integral = np.sum(np.diff(bends, axis=0) * (clipped[1:] + clipped[:-1]) / 2, axis=0)
     mean = np.divide(integral, length, out=clipped[0].copy(), where=length > 0)
