@@ -43,9 +43,8 @@ def volume_fraction_bulk(packing: Packing) -> float:
     straddling = Polygons.of(
         polygons.polygon(i) for i in np.flatnonzero(~inside & ~outside).tolist()
     )
-    clipped = shapely.area(
-        shapely.clip_by_rect(straddling.to_shapely(), x_min, y_min, x_max, y_max)
-    )
+    bulk = shapely.box(x_min, y_min, x_max, y_max)
+    clipped = shapely.area(shapely.intersection(straddling.to_shapely(), bulk))
     area = packing.area[inside].sum() + clipped.sum()
     return float(area / ((x_max - x_min) * (y_max - y_min)))
 
@@ -124,7 +123,8 @@ def volume_fraction_between(packing: Packing, axis: int, low: float, high: float
     if isinstance(domain, Region):
         sides = np.array([domain.x_min, domain.y_min, domain.x_max, domain.y_max])
         sides[[axis, axis + 2]] = low, high
-        whole = shapely.clip_by_rect(domain.to_shapely(), *sides).area
+        # clip_by_rect of GEOS takes wrong areas where a concave polygon has corners on the border
+        whole = shapely.intersection(domain.to_shapely(), shapely.box(*sides)).area
     return area / whole if whole else float("nan")
 
 
