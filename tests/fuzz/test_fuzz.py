@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+import json
 import os
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
+import shapely
 from hypothesis import HealthCheck, given, settings
+
+from grainfront.particles import Packing, Region
+from grainfront.polygons import Polygons
+from grainfront.statistics.fractions import volume_fraction_between
 
 sys.path.insert(0, str(Path(__file__).parent))
 from damage import DOMAINS, IMAGES, KINDS, OUTLINES, RESULTS, check_file, damaged_files, whole
@@ -69,3 +76,38 @@ def test_a_constant_orientation_beside_another_law():
     law = {"orientation": {"uniform": {"minimum": 0, "maximum": 90}}}
     arrangement = {"arrangement": {"regions": [region | law]}}
     assert check_scene(SMALL | {"orientation": {"constant": 30}} | arrangement) == "packed"
+
+
+def test_a_periodic_cell_lower_than_its_grains():
+    """Found by fuzzing: where none fits, none was left for the seam, which was a traceback."""
+    cell = {"domain": {"width": 16, "height": 0.8, "periodic": ["x"]}}
+    ends = {"minimum": 0.3, "maximum": 1.6}
+    size = {"size": {"lognormal": {"median": 1, "log_standard_deviation": 0.01, **ends}}}
+    assert check_scene(SMALL | cell | size) == "refused"
+
+
+def test_obstacles_that_leave_slivers_far_from_the_origin():
+    """Found by fuzzing: rounding outweighed the area of a slice, whose fraction was negative."""
+    far, d = 1500, 2.25e-6
+    outer = [[d, far + d], [4.5 - d, far + d], [4.5 - d, far + 4.5 - d], [d, far + 4.5 - d]]
+    inner = [[1.125, far + 1.125], [3.375, far + 1.125], [3.375, far + 3.375], [1.125, far + 3.375]]
+    rings = [[*ring, ring[0]] for ring in (outer, inner)]
+    stone = {"stones.geojson": json.dumps({"type": "Polygon", "coordinates": rings})}
+    domain = {
+        "domain": {"width": 4.5, "height": 4.5, "origin": [0, far]},
+        "obstacles": {"path": "stones.geojson"},
+        "shapes": {"family": {"regular_polygon": {"vertices": 3}}},
+        "size": {"constant": 1.5},
+        "orientation": {"constant": 0},
+        "packing": {"n_angle": 1, "n_loc": 1, "n_bin": 1},
+    }
+    assert check_scene(SMALL | domain, stone) == "packed"
+
+
+def test_slices_of_a_notched_domain_with_corners_on_the_border():
+    """Found by fuzzing: GEOS's clip_by_rect gave 3.0 for the area 4.5 of the topmost slice."""
+    notched = shapely.Polygon([(0, 0), (6, 0), (6, 5), (3, 4), (0, 5)])
+    square = np.array([[0.0, 4.0], [1.0, 4.0], [1.0, 4.5], [0.0, 4.5]])
+    one, polygons = np.ones(1), Polygons.of([square])
+    packing = Packing(Region.of(notched), polygons, *[one] * 7, np.zeros(1, dtype=np.int64), 0)
+    assert volume_fraction_between(packing, 1, 3.75, 5.0) == pytest.approx(0.5 / 4.5)

@@ -8,6 +8,7 @@ cut out, the one where least is lost is taken. A closing pass then fills the hol
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import shapely
@@ -73,6 +74,8 @@ def pack_periodic(
     larger = surroundings(cell, radius)
     empty = prepare(hulls, shape, size, [orientation], larger, n_angle, n_loc, rng)
     packed, time = fill(empty, aspect_ratio, progress)
+    if packed.x.size == 0:  # where none fits, all were tried, and none is left for the seam
+        return replace(packed, domain=cell), time, 0.0
     kept = max(
         (_cut(packed, cell, offset) for offset in _offsets(PLAY * radius, cell)),
         key=lambda part: float(part.area.sum()),

@@ -43,9 +43,8 @@ def volume_fraction_bulk(packing: Packing) -> float:
     straddling = Polygons.of(
         polygons.polygon(i) for i in np.flatnonzero(~inside & ~outside).tolist()
     )
-    clipped = shapely.area(
-        shapely.clip_by_rect(straddling.to_shapely(), x_min, y_min, x_max, y_max)
-    )
+    bulk = shapely.box(x_min, y_min, x_max, y_max)
+    clipped = shapely.area(shapely.intersection(straddling.to_shapely(), bulk))
     area = packing.area[inside].sum() + clipped.sum()
     return float(area / ((x_max - x_min) * (y_max - y_min)))
 
@@ -124,7 +123,8 @@ def volume_fraction_between(packing: Packing, axis: int, low: float, high: float
     if isinstance(domain, Region):
         sides = np.array([domain.x_min, domain.y_min, domain.x_max, domain.y_max])
         sides[[axis, axis + 2]] = low, high
-        whole = shapely.clip_by_rect(domain.to_shapely(), *sides).area
+        # clip_by_rect of GEOS takes wrong areas where a concave polygon has corners on the border
+        whole = shapely.intersection(domain.to_shapely(), shapely.box(*sides)).area
     return area / whole if whole else float("nan")
 
 
@@ -132,15 +132,17 @@ def _area_between(polygons: Polygons, axis: int, low: float, high: float) -> flo
     """Area of polygons between two lines across an axis.
 
     By Green's theorem, the area of a polygon between x = a and x = b is the integral over its
-    boundary of min(max(x, a), b) dy.
+    boundary of min(max(x, a), b) dy; of lengths from a on, so that far from the origin rounding
+    does not outweigh thin slices.
     """
     nodes, offsets = polygons.nodes, polygons.offsets
     after = np.arange(1, len(nodes) + 1)
     after[offsets[1:] - 1] = offsets[:-1]
-    first, last = np.sort([nodes[:, axis], nodes[after, axis]], axis=0)
+    first, last = np.sort([nodes[:, axis], nodes[after, axis]], axis=0) - low
+    width = high - low
     # clipping bends an edge at the two lines at most, and the trapezium rule is exact in between
-    bends = np.array([first, np.clip(low, first, last), np.clip(high, first, last), last])
-    clipped = np.clip(bends, low, high)
+    bends = np.array([first, np.clip(0.0, first, last), np.clip(width, first, last), last])
+    clipped = np.clip(bends, 0.0, width)
     length = last - first
     integral = np.sum(np.diff(bends, axis=0) * (clipped[1:] + clipped[:-1]) / 2, axis=0)
     mean = np.divide(integral, length, out=clipped[0].copy(), where=length > 0)
