@@ -27,7 +27,7 @@ SHORT = settings(
 
 
 @pytest.mark.skipif("NUMBA_DISABLE_JIT" in os.environ, reason="takes too long uncompiled")
-@settings(SHORT, max_examples=40)
+@settings(SHORT, max_examples=15)
 @given(scenes())
 def test_random_scenes_are_packed_or_refused(described):
     check_scene(*described)
