@@ -12,10 +12,11 @@ from pathlib import Path
 
 from grainfront.files.atomic import write_text
 from grainfront.files.contour import CONTOUR, CONTOUR_TIMING
-from grainfront.files.contract import CONTACTS, PACKING, SHAPES, STATISTICS
+from grainfront.files.contract import CONTACTS, PACKING, SHAPES
 from grainfront.files.error_vs_time import ERROR_VS_TIME
 from grainfront.files.header import cdl, json_schema
 from grainfront.files.stability import STABILITY
+from grainfront.files.statistics_contract import STATISTICS
 from grainfront.files.target import TARGET
 
 CONTRACTS = (

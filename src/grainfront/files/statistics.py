@@ -8,14 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from grainfront.certificate import Certificate
-from grainfront.files.contract import (
-    LAW_UNITS,
+from grainfront.files.contract import LAW_UNITS
+from grainfront.files.dataset import Path, read_dataset, write_dataset
+from grainfront.files.statistics_contract import (
     REGION_VARIABLES,
     SEED_COUNTS,
     SEED_FRACTIONS,
     STATISTICS,
 )
-from grainfront.files.dataset import Path, read_dataset, write_dataset
 from grainfront.statistics import Distribution, OrientationRose, PackingStatistics
 from grainfront.statistics.regions import RegionStatistics
 

@@ -30,8 +30,8 @@ SOURCES = {
     "replacement": ("geometry", "jit", "replacement", *_DATABASE, *_FILES, *_LAWS),
     "contacts": ("geometry", "jit", "statistics", *_FILES, *_LAWS),
     "statistics": (
-        "certificate", "geometry", "jit", "statistics", "files.statistics", *_REGIONS, *_DATABASE,
-        *_FILES, *_LAWS,
+        "certificate", "geometry", "jit", "statistics", "files.statistics",
+        "files.statistics_contract", *_REGIONS, *_DATABASE, *_FILES, *_LAWS,
     ),
     "sweep": (
         "draw", "geometry", "jit", "packing", "statistics", "studies.sweep", "files.contour",
@@ -52,7 +52,7 @@ SOURCES = {
     "vtk": ("files.vtk", *_FILES, *_LAWS),
     "figures": (
         "certificate", "figures", "geometry", "jit", "shapes", "statistics",
-        "files.statistics", *_FILES, *_LAWS,
+        "files.statistics", "files.statistics_contract", *_FILES, *_LAWS,
     ),
 }  # fmt: skip
 """What of the package each stage's results depend on: modules, and packages with all of theirs."""
