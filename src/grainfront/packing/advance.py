@@ -18,9 +18,9 @@ from grainfront.packing.control import EFFORT_SUM, account, effort_now, spend
 from grainfront.packing.exhaustive import choose_exhaustively
 from grainfront.packing.front import bury, front_length, member_at, move_gap, position_of
 from grainfront.packing.grid import insert
-from grainfront.packing.obstacles import BOTH, FORMER, LATTER, join_obstacle, touched_of_pair
 from grainfront.packing.orientations import draw_orientations, turn_and_inflate
 from grainfront.packing.search import choose_lowest
+from grainfront.packing.settle import BOTH, FORMER, LATTER, join_obstacle, touched_of_pair
 from grainfront.packing.state import RIGHT_WALL, Trial
 from grainfront.packing.trials import RESOLVED, TOO_HIGH
 
@@ -31,6 +31,10 @@ WAITING_PLACES = 8
 # With regions, particles may be placed so many circumradii above the rough centre. Higher up they
 # would pile up along the edge of a region, and the front would leave that region behind, empty.
 MOST_RISE = 1.0
+
+# So many particles ahead, the orientations placed so far count for nothing: where no particle finds
+# a place in those that its law lacks, all those of the law are tried before a packing ends.
+LOOK_AHEAD = 2**30
 
 # What the loop remembers between calls; LAW and TURN: of whose waiting particles it tries which.
 N_PLACED, N_TOO_LARGE, LAW, TURN, REGIONS_TRIED, N_FAILED = range(6)
@@ -91,7 +95,7 @@ def end_row(front, queues, counters):
     if counters[PLACED_IN_ROW] > 0:
         counters[EMPTY_ROWS] = 0
     elif not left or not parked_more:
-        # once more in orientations that the laws do not lack yet: there may be room in just these
+        # once more in all orientations of the laws: there may be room in those they do not lack
         counters[EMPTY_ROWS] += 1
         queues.parked[:] = 0
         if counters[EMPTY_ROWS] > 1:
@@ -102,12 +106,12 @@ def end_row(front, queues, counters):
 
 
 @inlined
-def pass_on(front, queues, counters):
-    """Move on by one member of the front."""
+def pass_on(front, queues, counters, members):
+    """Move on along the front, by some members but not beyond the right wall."""
     if front.member[front.ends[1]] == RIGHT_WALL:
         end_row(front, queues, counters)
     else:
-        move_gap(front, front.ends[0] + 1)
+        move_gap(front, min(front.ends[0] + members, front_length(front) - 1))
 
 
 @inlined
@@ -123,7 +127,7 @@ def turn_at_obstacle(front, placed, queues, counters, touched, particle):
     if touched == LATTER and leads_down:
         move_gap(front, position)
     elif touched == FORMER and not leads_down:
-        pass_on(front, queues, counters)
+        pass_on(front, queues, counters, 1)
 
 
 @inlined
@@ -227,7 +231,8 @@ def advance(
     Without a memory the choice is exhaustive, which with one orientation and one pair is the plain
     advancing front method. With a control, n_angle and n_loc are the most that it may spend. With
     an arrangement, particles are drawn by where the rough centre lies, the mean of the two chosen
-    boundaries, and placed where their region is (paper, Pseudocode 7).
+    boundaries, and placed where their region is (paper, Pseudocode 7). Where no waiting particle
+    finds a place, the front moves on by n_loc members: half of the next local front is new.
     """
     most_n_angle, most_n_loc = n_angle, n_loc
     places = queues.waiting.shape[1]
@@ -239,7 +244,7 @@ def advance(
         waiting = queues.n_waiting[law]
         if turn == waiting and (turn == places or queues.drawn[law] == queues.last[law]):
             if not next_region(arrangement, queues, counters):
-                pass_on(front, queues, counters)
+                pass_on(front, queues, counters, n_loc)
                 begin_turn(front, placed, domain, arrangement, queues, counters, n_loc)
             continue
         if turn == waiting and draw_next(queues, counters, law, supply, narrowest):
@@ -249,7 +254,7 @@ def advance(
         if control is not None:
             effort = effort_now(control)
             n_angle, n_loc = spend(control, effort, source, offset, most_n_angle, most_n_loc)
-        ahead = counters[EMPTY_ROWS] * laws.probability.shape[1]
+        ahead = counters[EMPTY_ROWS] * LOOK_AHEAD
         draw_orientations(laws, law, trials, n_angle, queues.n_placed[law] + ahead, offset)
         particle = turn_and_inflate(supply, source, domain.clearance, trials, n_angle)
         highest = np.inf
@@ -295,5 +300,5 @@ def advance(
             counters[TOO_HIGH_IN_ROW] += 1
             counters[TURN] += 1
         elif not next_region(arrangement, queues, counters):
-            pass_on(front, queues, counters)
+            pass_on(front, queues, counters, n_loc)
             begin_turn(front, placed, domain, arrangement, queues, counters, n_loc)

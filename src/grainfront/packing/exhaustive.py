@@ -10,7 +10,8 @@ import math
 from grainfront.jit import inlined
 from grainfront.packing.arranged import admitted
 from grainfront.packing.front import front_length, member_at
-from grainfront.packing.obstacles import OVERLAPPING, near_obstacles, settle
+from grainfront.packing.obstacles import near_obstacles
+from grainfront.packing.settle import OVERLAPPING, settle
 from grainfront.packing.state import Trial
 from grainfront.packing.trials import (
     BLOCKED,

@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 from grainfront.geometry.contact import contact_with_polygons
-from grainfront.geometry.tangent import common_tangent
 from grainfront.jit import inlined
+from grainfront.packing.trials import tangent_of_pair
 
 # Pairs wider than this are rare; they are computed afresh.
 WIDTHS = 12
@@ -61,14 +61,7 @@ def remember_tangent(placed, memory, a, b, entry):
     """Find the common tangent of the particles a and b, once a step."""
     if memory.known[entry] != memory.step[0]:
         memory.known[entry] = memory.step[0]
-        a0, b0 = placed.offsets[a], placed.offsets[b]
-        na, nb = placed.offsets[a + 1] - a0, placed.offsets[b + 1] - b0
-        disc = placed.disc
-        va, vb = common_tangent(
-            placed.nodes, a0, na, disc[a, 0], disc[a, 1], b0, nb, disc[b, 0], disc[b, 1]
-        )
-        memory.tangent[entry, 0] = va
-        memory.tangent[entry, 1] = vb
+        memory.tangent[entry, 0], memory.tangent[entry, 1] = tangent_of_pair(placed, a, b)
         memory.guess[entry, 0] = -1
 
 

@@ -1,9 +1,7 @@
-"""Trials among obstacles: a particle slides along either partner until it touches an obstacle.
+"""Obstacles, and where they are: cells, overlaps, and lists of those within reach of a member.
 
 A domain of any shape is its bounding rectangle with obstacles: convex pieces of what is outside.
-They are particles that never join the front. Where a particle in contact with the pair (i, k) of
-the front would overlap one, or no such contact exists, an obstacle takes the place of either
-partner; the particle joins the front between i and k all the same.
+They are particles that never join the front.
 """
 
 from __future__ import annotations
@@ -12,29 +10,7 @@ import math
 
 from grainfront.geometry.support import at
 from grainfront.jit import inlined, kernel
-from grainfront.packing.front import member_at
-from grainfront.packing.trials import (
-    BLOCKED,
-    BYPASSED,
-    NOTHING,
-    RESOLVED,
-    TOO_HIGH,
-    contact_of_pair,
-    overlapped,
-    overlaps_member,
-    overlaps_particle,
-)
-
-# A trial that touches an obstacle, but overlaps a member of the front: the pair is to be widened.
-OVERLAPPING = 2
-# A ceiling, as the top of a rectangle, is nothing to lean on: an obstacle from whose nearest point
-# the centre of the trial lies more steeply down than this sine says.
-CEILING = 0.7
-# A particle that touches an obstacle closes off those between itself and the next place where the
-# front meets an obstacle, if they are this close: so many of its circumradii from their circles.
-CLOSED_OFF = 2.0
-# Whom of its pair a particle touches: both, or an obstacle and the former or the latter.
-BOTH, FORMER, LATTER = range(3)
+from grainfront.packing.trials import BYPASSED, NOTHING, overlaps_particle, tangent_of_pair
 
 
 @inlined
@@ -104,6 +80,21 @@ def overlapped_obstacle(obstacles, placed, domain, trials, trial, x, y):
 
 
 @inlined
+def overlaps_obstacle(obstacles, placed, domain, trials, trial, x, y):
+    """Whether the trial at (x, y) overlaps an obstacle or leaves the bounding rectangle.
+
+    The obstacle that was overlapped last is tried first: mostly it is that one again.
+    """
+    q = obstacles.overlapped[0]
+    if q >= 0 and overlaps_particle(placed, domain, trials, trial, q, x, y):
+        return True
+    q = overlapped_obstacle(obstacles, placed, domain, trials, trial, x, y)
+    if q >= 0:
+        obstacles.overlapped[0] = q
+    return q != NOTHING
+
+
+@inlined
 def from_nearest(placed, q, x, y):
     """Distance squared and rise from the nearest point of an obstacle's boundary to a point."""
     nodes = placed.nodes
@@ -128,11 +119,8 @@ def from_nearest(placed, q, x, y):
 
 
 @inlined
-def newly_within_reach(obstacles, placed, o, x, y, reach):
-    """Whether an obstacle comes near a point, the first time that this search meets it."""
-    if obstacles.met[o] == obstacles.search[0]:
-        return False
-    obstacles.met[o] = obstacles.search[0]
+def comes_within(obstacles, placed, o, x, y, reach):
+    """Whether an obstacle comes nearer to a point than `reach`."""
     if (
         at(obstacles.box, o, 0) > x + reach
         or at(obstacles.box, o, 1) > y + reach
@@ -143,128 +131,37 @@ def newly_within_reach(obstacles, placed, o, x, y, reach):
     return from_nearest(placed, obstacles.first + o, x, y)[0] < reach * reach
 
 
-@inlined
-def hangs_below(placed, q, x, y):
-    """Whether a centre (x, y) lies below the obstacle q rather than beside or above it."""
-    squared, rise = from_nearest(placed, q, x, y)
-    return rise < 0.0 and rise * rise > CEILING * CEILING * squared
-
-
-@inlined
-def touch_obstacle(obstacles, front, placed, grid, domain, trials, trial, i, k, side, q, best):
-    """The lower of `best` and the contact with obstacle q and the member i or k, if any."""
-    a, b = member_at(front, i), member_at(front, k)
-    first, second, other = (a, q, b) if side == FORMER else (q, b, a)
-    found, x, y = contact_of_pair(placed, domain, trials, trial, first, second)
-    if not found or y >= best[2] or hangs_below(placed, q, x, y):
-        return best
-    if overlapped_obstacle(obstacles, placed, domain, trials, trial, x, y) != NOTHING:
-        return best
-    if overlaps_member(placed, domain, trials, trial, other, x, y):
-        return best
-    position = overlapped(front, placed, grid, domain, trials, trial, i, k, x, y)
-    if position == BYPASSED:
-        return best
-    return (RESOLVED if position == NOTHING else OVERLAPPING), x, y, position, side
-
-
 @kernel
-def settle(obstacles, front, placed, grid, domain, trials, trial, i, k, ceiling):
-    """The place of a trial between the members i and k: (status, x, y, position, side).
-
-    The contact with both, if no obstacle is in the way; else the lowest contact with one of them
-    and an obstacle that is below `ceiling` and overlaps nothing but members beyond the pair: it is
-    RESOLVED or, with the position of the nearest of these members, OVERLAPPING.
-    """
-    nowhere = BLOCKED, 0.0, ceiling, NOTHING, BOTH
-    if obstacles is None:
-        return nowhere
-    found, x, y = contact_of_pair(
-        placed, domain, trials, trial, member_at(front, i), member_at(front, k)
-    )
-    if found:
-        if y + trials.reach[trial.angle, 3] > domain.y_max + domain.tolerance:
-            return TOO_HIGH, x, y, NOTHING, BOTH
-        q = overlapped_obstacle(obstacles, placed, domain, trials, trial, x, y)
-        if q == NOTHING:
-            position = overlapped(front, placed, grid, domain, trials, trial, i, k, x, y)
-            if y > ceiling or position == BYPASSED:
-                return nowhere
-            return (RESOLVED if position == NOTHING else OVERLAPPING), x, y, position, BOTH
-        if q >= 0 and hangs_below(placed, q, x, y):
-            return TOO_HIGH, x, y, NOTHING, BOTH
-    best = nowhere
-    for side in range(FORMER, LATTER + 1):
-        partner = member_at(front, i if side == FORMER else k)
-        if partner < 0:
-            continue
-        about_x, about_y = placed.disc[partner, 0], placed.disc[partner, 1]
-        if about_y - placed.disc[partner, 2] - trial.circumradius >= best[2]:
-            continue
-        obstacles.search[0] += 1
-        reach = placed.disc[partner, 2] + 2.0 * trial.circumradius
-        left, right, bottom, top = cells_about(obstacles, domain, about_x, about_y, reach)
-        for row in range(bottom, top + 1):
-            first = row * obstacles.columns
-            for n in range(obstacles.start[first + left], obstacles.start[first + right + 1]):
-                o = obstacles.item[n]
-                if newly_within_reach(obstacles, placed, o, about_x, about_y, reach):
-                    best = touch_obstacle(
-                        obstacles, front, placed, grid, domain, trials, trial, i, k, side,
-                        obstacles.first + o, best,
-                    )  # fmt: skip
-    return best
-
-
-@inlined
-def touched_of_pair(obstacles, front, placed, grid, domain, trials, trial, i, k):
-    """Whom of its pair a trial that has found its place touches: BOTH, FORMER or LATTER."""
-    if obstacles is None:
-        return BOTH
-    if not near_obstacles(
-        obstacles, placed, domain, trial.circumradius, member_at(front, i), member_at(front, k)
-    ):
-        return BOTH
-    return settle(obstacles, front, placed, grid, domain, trials, trial, i, k, math.inf)[4]
-
-
-@inlined
-def close_to(placed, member, x, y, reach):
-    """Whether a point is within `reach` of the circle of a particle."""
-    far = placed.disc[member, 2] + reach
-    return (placed.disc[member, 0] - x) ** 2 + (placed.disc[member, 1] - y) ** 2 < far * far
-
-
-@inlined
-def close_off(obstacles, front, placed, trial, x, y, i, k, touched):
-    """The pair that a particle at (x, y) on the pair (i, k) joins: it may close off more members.
-
-    On the side of the obstacle it touches, these are those close to it up to where the front meets
-    an obstacle; there, a wall would have been the partner.
-    """
-    reach = CLOSED_OFF * trial.circumradius
-    position = k if touched == FORMER else i
-    step = 1 if touched == FORMER else -1
-    while True:
-        member = member_at(front, position)
-        if member < 0 or not close_to(placed, member, x, y, reach):
-            return i, k
-        beyond = member_at(front, position + step)
-        owner = member if touched == FORMER else beyond
-        position += step
-        if beyond < 0 or obstacles.splits[owner]:
-            return (i, position) if touched == FORMER else (position, k)
-
-
-@inlined
-def join_obstacle(obstacles, front, placed, trial, number, x, y, i, k, touched):
-    """Note which links of the front an obstacle splits; the pair that the new particle joins."""
-    if obstacles is None:
-        return i, k
-    if touched != BOTH:
-        i, k = close_off(obstacles, front, placed, trial, x, y, i, k, touched)
-    a = member_at(front, i)
-    if a >= 0:
-        obstacles.splits[a] = touched == LATTER
-    obstacles.splits[number] = touched == FORMER
-    return i, k
+def list_reached(obstacles, placed, domain, member, reach):
+    """List the obstacles within reach of a member's centre, once: (first, end) of the list."""
+    reached = obstacles.reached
+    slot = member % reached.member.size
+    if reached.member[slot] == member and reached.reach[slot] == reach:
+        return reached.start[slot], reached.end[slot]
+    start = reached.filled[0]
+    if start + obstacles.box.shape[0] > reached.obstacle.size:
+        reached.member[:] = -1
+        start = 0
+    end = start
+    obstacles.search[0] += 1
+    x, y = placed.disc[member, 0], placed.disc[member, 1]
+    left, right, bottom, top = cells_about(obstacles, domain, x, y, reach)
+    for row in range(bottom, top + 1):
+        first = row * obstacles.columns
+        for n in range(obstacles.start[first + left], obstacles.start[first + right + 1]):
+            o = obstacles.item[n]
+            if obstacles.met[o] == obstacles.search[0]:
+                continue
+            obstacles.met[o] = obstacles.search[0]
+            if comes_within(obstacles, placed, o, x, y, reach):
+                q = obstacles.first + o
+                reached.obstacle[end] = q
+                reached.tangent[end, 0] = tangent_of_pair(placed, member, q)
+                reached.tangent[end, 1] = tangent_of_pair(placed, q, member)
+                end += 1
+    reached.filled[0] = end
+    reached.member[slot] = member
+    reached.reach[slot] = reach
+    reached.start[slot] = start
+    reached.end[slot] = end
+    return start, end

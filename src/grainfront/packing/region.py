@@ -9,7 +9,7 @@ import shapely
 
 from grainfront.geometry.pieces import convex_pieces
 from grainfront.geometry.placing import radii_about_origin
-from grainfront.packing.state import Obstacles, Placed
+from grainfront.packing.state import Obstacles, Placed, Reached
 from grainfront.particles import Region
 from grainfront.polygons import Polygons
 
@@ -24,6 +24,10 @@ EMPTY_ABOUT = 3.0
 MOST_CELLS = 2**18
 # Cells are grown by this share of themselves, so that rounding leaves no obstacle out.
 CELL_MARGIN = 1e-6
+# Members whose obstacles are listed at a time, those of a local front and more, and obstacles in
+# their lists: with hundreds to each, lists are made for every particle, but not for every trial.
+N_LISTS = 64
+MOST_ITEMS = 2**14
 
 
 def outside_pieces(region: Region) -> Polygons:
@@ -107,9 +111,26 @@ def make_obstacles(
         beside_start=beside_start,
         beside=beside,
         rejected=np.zeros(circumradius.size, dtype=np.bool_),
+        crowded=np.zeros(pieces.count, dtype=np.bool_),
         met=np.zeros(pieces.count, dtype=np.int64),
         search=np.zeros(1, dtype=np.int64),
+        overlapped=np.full(1, -1, dtype=np.int64),
+        reached=make_reached(pieces.count),
         splits=np.zeros(first, dtype=np.bool_),
+    )
+
+
+def make_reached(n_obstacles: int) -> Reached:
+    """Room for the lists of a local front, the longest of which has all obstacles."""
+    n_items = n_obstacles + MOST_ITEMS
+    return Reached(
+        obstacle=np.empty(n_items, dtype=np.int64),
+        tangent=np.empty((n_items, 2, 2), dtype=np.int64),
+        filled=np.zeros(1, dtype=np.int64),
+        member=np.full(N_LISTS, -1, dtype=np.int64),
+        reach=np.empty(N_LISTS),
+        start=np.empty(N_LISTS, dtype=np.int64),
+        end=np.empty(N_LISTS, dtype=np.int64),
     )
 
 

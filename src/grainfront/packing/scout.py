@@ -2,7 +2,7 @@
 
 No orientation of the particle gets lower than the scout, resolved once at every pair, gets nearby.
 The bound is not proven; the tests hold the choice it leads to against exhaustive search over many
-thousand steps.
+thousand steps. Among obstacles 4 of 6,129 choices, of triangles all, were not the lowest.
 """
 
 from __future__ import annotations
@@ -16,8 +16,9 @@ from grainfront.packing.arranged import is_elsewhere
 from grainfront.packing.front import front_length, member_at
 from grainfront.packing.memory import WIDTHS, contact_from_tangent
 from grainfront.packing.obstacles import near_obstacles
+from grainfront.packing.settle import OVERLAPPING, settle
 from grainfront.packing.state import Trial
-from grainfront.packing.trials import NOTHING, overlapped_neighbour
+from grainfront.packing.trials import BLOCKED, NOTHING, contact_of_pair, overlapped_neighbour
 
 # Corners of the scout: enough to fill most of the inscribed circle, few enough to be quick.
 SCOUT_CORNERS = 12
@@ -42,14 +43,43 @@ def shape_scout(trials, start, angle, inradius):
 
 
 @inlined
-def send_scout(
-    front, placed, domain, trials, circumradius, scout, memory, arrangement, law, base, begin, p
-):
+def rest_of_scout(obstacles, front, placed, grid, domain, trials, circumradius, scout, i, k):
+    """Where the scout, sent from the pair (i, k), rests among obstacles: (x, y, i, k).
+
+    Where it finds no place, y is ∞.
+    """
+    begin = i
+    while obstacles is not None:
+        a = member_at(front, i)
+        b = member_at(front, k)
+        if near_obstacles(obstacles, placed, domain, circumradius, a, b):
+            status, x, y, position, _ = settle(
+                obstacles, front, placed, grid, domain, trials, scout, i, k, math.inf
+            )
+            if status == BLOCKED:
+                return x, math.inf, begin, begin + 1
+            if status != OVERLAPPING:
+                return x, y, i, k
+        else:
+            found, x, y = contact_of_pair(placed, domain, trials, scout, a, b)
+            if not found:
+                return x, -math.inf, i, k
+            position = overlapped_neighbour(front, placed, domain, trials, scout, i, k, x, y)
+            if position == NOTHING:
+                return x, y, i, k
+        if position < i:
+            i = position
+        else:
+            k = position
+    return 0.0, -math.inf, i, k
+
+
+@inlined
+def send_scout(front, placed, domain, trials, scout, memory, arrangement, law, base, begin, p):
     """Resolve the scout from pair p and note its place: its height and the pairs it covers.
 
-    Where a wall is met or the memory ends, the height is −∞: no bound. Where an obstacle is near,
-    it is the least that a particle can touch the pair at; in the region of another law ∞: no place.
-    A pair that another scout of this step came by leads to the same place.
+    Where a wall is met or the memory ends, the height is −∞: no bound. In the region of another law
+    it is ∞: no place. A pair that another scout of this step came by leads to the same place.
     """
     i = begin + p
     k = i + 1
@@ -61,12 +91,6 @@ def send_scout(
         a = member_at(front, i)
         b = member_at(front, k)
         if a < 0 or b < 0 or row < 0 or width >= WIDTHS:
-            break
-        if near_obstacles(domain.obstacles, placed, domain, circumradius, a, b):
-            memory.height[p] = min(
-                placed.disc[a, 1] - placed.disc[a, 2], placed.disc[b, 1] - placed.disc[b, 2]
-            )
-            memory.height[p] -= circumradius
             break
         if memory.scouted[entry, 0] == memory.step[0]:
             same = memory.scouted[entry, 1]
@@ -95,24 +119,37 @@ def send_scout(
 
 @inlined
 def bound_pairs(
-    front, placed, domain, trials, circumradius, scout, memory, arrangement, law, base, first, last
-):
+    front, placed, grid, domain, trials, circumradius, scout, memory, arrangement, law, base, first,
+    last,
+):  # fmt: skip
     """Lower bounds of what trials reach from each pair, from the scout's places nearby."""
     begin = max(first - SCOUT_OUTSIDE, 0)
     end = min(last + SCOUT_OUTSIDE, front_length(front) - 2)
     n_sent = end + 1 - begin
     for p in range(n_sent):
         memory.bound[p] = np.inf
-        send_scout(
-            front, placed, domain, trials, circumradius, scout, memory, arrangement, law, base,
-            begin, p,
+        if domain.obstacles is None:
+            send_scout(
+                front, placed, domain, trials, scout, memory, arrangement, law, base, begin, p
+            )
+            continue
+        x, y, i, k = rest_of_scout(
+            domain.obstacles, front, placed, grid, domain, trials, circumradius, scout,
+            begin + p, begin + p + 1,
         )  # fmt: skip
+        if arrangement is not None and y > -math.inf and is_elsewhere(arrangement, law, x, y):
+            y = math.inf
+        memory.height[p] = y
+        memory.covers[p, 0] = i - begin
+        memory.covers[p, 1] = k - 1 - begin
+    # among obstacles a front may end anywhere: scouts beyond the local front are not waited for
+    beyond = -np.inf if domain.obstacles is None else np.inf
     for p in range(n_sent):
         left = memory.covers[p, 0]
         right = memory.covers[p, 1]
         y = memory.height[p]
-        y = min(y, memory.height[left - 1] if left > 0 else -np.inf)
-        y = min(y, memory.height[right + 1] if right + 1 < n_sent else -np.inf)
+        y = min(y, memory.height[left - 1] if left > 0 else beyond)
+        y = min(y, memory.height[right + 1] if right + 1 < n_sent else beyond)
         for u in range(max(left - SCOUT_MARGIN, 0), min(right + SCOUT_MARGIN, n_sent - 1) + 1):
             memory.bound[u] = min(memory.bound[u], y)
     for p in range(last + 1 - first):

@@ -20,8 +20,9 @@ from grainfront.packing.arranged import admitted
 from grainfront.packing.exhaustive import lower, no_trial_below
 from grainfront.packing.front import front_length, member_at
 from grainfront.packing.memory import WIDTHS, contact_from_tangent, remember_tangent
-from grainfront.packing.obstacles import OVERLAPPING, near_obstacles, settle
+from grainfront.packing.obstacles import near_obstacles
 from grainfront.packing.scout import bound_pairs, shape_scout
+from grainfront.packing.settle import OVERLAPPING, settle
 from grainfront.packing.state import Trial
 from grainfront.packing.trials import (
     BLOCKED,
@@ -152,8 +153,8 @@ def choose_lowest(
     base = first - WIDTHS
     scout = shape_scout(trials, n_angle * count, n_angle, inradius)
     bound_pairs(
-        front, placed, domain, trials, circumradius, scout, memory, arrangement, law, base, first,
-        last,
+        front, placed, grid, domain, trials, circumradius, scout, memory, arrangement, law, base,
+        first, last,
     )  # fmt: skip
     sort_pairs(memory, last + 1 - first)
     best = no_trial_below(highest)
@@ -164,7 +165,7 @@ def choose_lowest(
         if below_top < memory.bound[p] < math.inf:
             best = lower(best, (TOO_HIGH, math.inf, math.inf, -1, -1, -1))
             break
-        if memory.bound[p] > best[2]:
+        if memory.bound[p] > best[2] or memory.bound[p] == math.inf:
             break
         i = first + p
         for angle in range(n_angle):

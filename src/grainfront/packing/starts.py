@@ -24,10 +24,10 @@ from grainfront.packing.advance import (
     take_from_waiting,
 )
 from grainfront.packing.arranged import admitted
-from grainfront.packing.obstacles import overlapped_obstacle
+from grainfront.packing.obstacles import overlaps_obstacle
 from grainfront.packing.orientations import draw_orientations, turn_and_inflate
 from grainfront.packing.state import LEFT_WALL, RIGHT_WALL, Trial
-from grainfront.packing.trials import NOTHING, RESOLVED, contact_of_pair, overlaps_particle
+from grainfront.packing.trials import RESOLVED, contact_of_pair, overlaps_particle
 
 
 @inlined
@@ -57,6 +57,27 @@ def empty_about(obstacles, placed, n_placed, domain, trials, trial, x, y):
 
 
 @inlined
+def note_crowded(obstacles, placed, n_placed, circumradius, inradius):
+    """Note the obstacles beside which no front can begin: one particle is near all along them."""
+    reach = obstacles.empty_about * circumradius
+    for o in range(obstacles.box.shape[0]):
+        obstacles.crowded[o] = False
+        x = 0.5 * (obstacles.box[o, 0] + obstacles.box[o, 2])
+        y = 0.5 * (obstacles.box[o, 1] + obstacles.box[o, 3])
+        half = 0.5 * math.hypot(
+            obstacles.box[o, 2] - obstacles.box[o, 0], obstacles.box[o, 3] - obstacles.box[o, 1]
+        )
+        for q in range(n_placed):
+            near = max(reach + placed.disc[q, 2], inradius + placed.disc[q, 3])
+            near -= half + circumradius
+            if near > 0.0 and (
+                (placed.disc[q, 0] - x) ** 2 + (placed.disc[q, 1] - y) ** 2 < near * near
+            ):
+                obstacles.crowded[o] = True
+                break
+
+
+@inlined
 def lowest_start(
     obstacles, placed, n_placed, domain, trials, arrangement, law, particle, n_angle, ceiling
 ):
@@ -66,9 +87,14 @@ def lowest_start(
     """
     count, circumradius, inradius = particle
     best = False, 0.0, ceiling, 0
+    note_crowded(obstacles, placed, n_placed, circumradius, inradius)
     for o in range(obstacles.box.shape[0]):
+        if obstacles.crowded[o]:
+            continue
         for n in range(obstacles.beside_start[o], obstacles.beside_start[o + 1]):
             p = obstacles.beside[n]
+            if obstacles.crowded[p]:
+                continue
             if not may_touch_both(obstacles.box, o, p, circumradius, best[2]):
                 continue
             for angle in range(n_angle):
@@ -82,7 +108,7 @@ def lowest_start(
                     admitted(arrangement, law, math.inf, RESOLVED, x, y) != RESOLVED
                 ):
                     continue
-                if overlapped_obstacle(obstacles, placed, domain, trials, trial, x, y) != NOTHING:
+                if overlaps_obstacle(obstacles, placed, domain, trials, trial, x, y):
                     continue
                 if empty_about(obstacles, placed, n_placed, domain, trials, trial, x, y):
                     best = True, x, y, angle

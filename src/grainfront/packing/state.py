@@ -21,6 +21,18 @@ CLEARANCE_ULPS = 64.0
 TOLERANCE_OF_CLEARANCE = 0.25
 
 
+class Reached(NamedTuple):
+    """Lists of the obstacles within reach of members of the front, kept while trials come by."""
+
+    obstacle: np.ndarray  # (n_items,) lists of obstacles, one behind the other
+    tangent: np.ndarray  # (n_items, 2, 2) of member and obstacle, and of obstacle and member
+    filled: np.ndarray  # (1,) items in use
+    member: np.ndarray  # (n_lists,) whose list it is, or -1
+    reach: np.ndarray  # (n_lists,) from the member's centre
+    start: np.ndarray  # (n_lists,) where the list begins
+    end: np.ndarray  # (n_lists,) one past its last
+
+
 class Obstacles(NamedTuple):
     """Convex pieces of what is outside a domain of any shape: particles that never move.
 
@@ -39,8 +51,11 @@ class Obstacles(NamedTuple):
     beside_start: np.ndarray  # (n_obstacles + 1,) where the list of each obstacle begins
     beside: np.ndarray  # (n_beside,) others that a particle may touch together with it
     rejected: np.ndarray  # (n,) whether a particle of the supply found no place to begin a front
+    crowded: np.ndarray  # (n_obstacles,) whether particles leave no place beside it for a new front
     met: np.ndarray  # (n_obstacles,) number of the search that came by last
     search: np.ndarray  # (1,) number of the current search
+    overlapped: np.ndarray  # (1,) the latest that a trial overlapped, or -1
+    reached: Reached
     splits: np.ndarray  # (n,) whether a piece lies between a particle of the front and the next one
 
 

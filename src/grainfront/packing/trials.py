@@ -28,25 +28,49 @@ def wall_line(domain, wall, reach, angle):
 
 
 @inlined
+def tangent_of_pair(placed, a, b):
+    """Vertices of two particles on their common tangent; see `common_tangent`."""
+    disc = placed.disc
+    a0, b0 = placed.offsets[a], placed.offsets[b]
+    na, nb = placed.offsets[a + 1] - a0, placed.offsets[b + 1] - b0
+    return common_tangent(
+        placed.nodes, a0, na, disc[a, 0], disc[a, 1], b0, nb, disc[b, 0], disc[b, 1]
+    )
+
+
+@inlined
+def contact_at_tangent(placed, trials, trial, a, b, tangent):
+    """Centre of the trial in contact with two particles, given their tangent: (found, x, y)."""
+    a0, b0 = placed.offsets[a], placed.offsets[b]
+    na, nb = placed.offsets[a + 1] - a0, placed.offsets[b + 1] - b0
+    found, x, y, _, _, _, _ = contact_with_polygons(
+        placed.nodes, a0, na, tangent[0], b0, nb, tangent[1],
+        trials.nodes, trial.start, trial.n_nodes,
+    )  # fmt: skip
+    return found, x, y
+
+
+@inlined
 def contact_of_pair(placed, domain, trials, trial, a, b):
     """Centre of the trial in contact with the members a and b: (found, x, y)."""
-    nodes = placed.nodes
     if a >= 0 and b >= 0:
-        a0, b0 = placed.offsets[a], placed.offsets[b]
-        na, nb = placed.offsets[a + 1] - a0, placed.offsets[b + 1] - b0
-        disc = placed.disc
-        i, j = common_tangent(nodes, a0, na, disc[a, 0], disc[a, 1], b0, nb, disc[b, 0], disc[b, 1])
-        found, x, y, _, _, _, _ = contact_with_polygons(
-            nodes, a0, na, i, b0, nb, j, trials.nodes, trial.start, trial.n_nodes
-        )
-        return found, x, y
+        return contact_at_tangent(placed, trials, trial, a, b, tangent_of_pair(placed, a, b))
     if a >= 0 or b >= 0:
         polygon = max(a, b)
         nx, ny, level = wall_line(domain, min(a, b), trials.reach, trial.angle)
         start = placed.offsets[polygon]
         count = placed.offsets[polygon + 1] - start
         return contact_with_wall(
-            nodes, start, count, a >= 0, nx, ny, level, trials.nodes, trial.start, trial.n_nodes
+            placed.nodes,
+            start,
+            count,
+            a >= 0,
+            nx,
+            ny,
+            level,
+            trials.nodes,
+            trial.start,
+            trial.n_nodes,
         )
     y = domain.y_min + trials.reach[trial.angle, 1]
     if a == LEFT_WALL and b == BOTTOM_WALL:
