@@ -32,9 +32,8 @@ WAITING_PLACES = 8
 # would pile up along the edge of a region, and the front would leave that region behind, empty.
 MOST_RISE = 1.0
 
-# So many particles ahead, the orientations placed so far count for nothing: where no particle finds
-# a place in those that its law lacks, all those of the law are tried before a packing ends.
-LOOK_AHEAD = 2**30
+# So many particles ahead, what a law's bins have so far counts for nothing.
+FAR_AHEAD = 2**30
 
 # What the loop remembers between calls; LAW and TURN: of whose waiting particles it tries which.
 N_PLACED, N_TOO_LARGE, LAW, TURN, REGIONS_TRIED, N_FAILED = range(6)
@@ -95,14 +94,23 @@ def end_row(front, queues, counters):
     if counters[PLACED_IN_ROW] > 0:
         counters[EMPTY_ROWS] = 0
     elif not left or not parked_more:
-        # once more in all orientations of the laws: there may be room in those they do not lack
+        # once more in orientations that the laws do not lack yet: there may be room in just these;
+        # and, unless it is the top that leaves none, in all of the laws: others may never fit
         counters[EMPTY_ROWS] += 1
         queues.parked[:] = 0
-        if counters[EMPTY_ROWS] > 1:
+        if counters[EMPTY_ROWS] > (1 if counters[TOO_HIGH_IN_ROW] > 0 else 2):
             counters[FINISHED] = 1
     counters[PLACED_IN_ROW] = 0
     counters[TOO_HIGH_IN_ROW] = 0
     move_gap(front, 1)
+
+
+@inlined
+def look_ahead(counters, laws):
+    """How many particles ahead of the placed ones orientations are drawn for."""
+    if counters[EMPTY_ROWS] == 0:
+        return 0
+    return laws.probability.shape[1] if counters[EMPTY_ROWS] == 1 else FAR_AHEAD
 
 
 @inlined
@@ -254,7 +262,7 @@ def advance(
         if control is not None:
             effort = effort_now(control)
             n_angle, n_loc = spend(control, effort, source, offset, most_n_angle, most_n_loc)
-        ahead = counters[EMPTY_ROWS] * LOOK_AHEAD
+        ahead = look_ahead(counters, laws)
         draw_orientations(laws, law, trials, n_angle, queues.n_placed[law] + ahead, offset)
         particle = turn_and_inflate(supply, source, domain.clearance, trials, n_angle)
         highest = np.inf

@@ -167,12 +167,29 @@ def close_off(obstacles, front, placed, trial, x, y, i, k, touched):
 
 
 @inlined
+def is_passed_below(front, placed, y, i, k):
+    """Whether a member between the positions i and k lies higher than y."""
+    for position in range(i + 1, k):
+        member = member_at(front, position)
+        if member >= 0 and placed.disc[member, 1] > y:
+            return True
+    return False
+
+
+@inlined
 def join_obstacle(obstacles, front, placed, trial, number, x, y, i, k, touched):
     """Note which links of the front an obstacle splits; the pair that the new particle joins."""
     if obstacles is None:
         return i, k
-    if touched != BOTH:
-        i, k = close_off(obstacles, front, placed, trial, x, y, i, k, touched)
+    if is_passed_below(front, placed, y, i, k):
+        if touched == LATTER:
+            i = k - 1
+        else:
+            k = i + 1
+    elif touched != BOTH:
+        first, last = close_off(obstacles, front, placed, trial, x, y, i, k, touched)
+        if not is_passed_below(front, placed, y, first, last):
+            i, k = first, last
     a = member_at(front, i)
     if a >= 0:
         obstacles.splits[a] = touched == LATTER
