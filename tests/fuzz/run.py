@@ -1,7 +1,8 @@
 """Fuzz for a while and count: `python tests/fuzz/run.py --minutes 30`.
 
 Random scenes and damaged files take turns; the first failure ends the run with the example that
-shows it, made as small as it gets. A hang ends it too, with the place where it hung.
+shows it, made as small as it gets. A hang ends it too, with the place where it hung; what hung is
+left in the file `--example`.
 """
 
 from __future__ import annotations
@@ -28,9 +29,16 @@ SEARCHES = [f"{regions}{search}" for regions in ("", "arranged_")
                            "exhaustive_outlined", "pruned_outlined")]  # fmt: skip
 
 
+def begin(path: Path, example: object) -> None:
+    """Write down what is tried next, and give it as long as nothing takes that does not hang."""
+    path.write_text(repr(example), encoding="utf-8")
+    faulthandler.dump_traceback_later(HANGS_S, exit=True)
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--minutes", type=float, default=30.0)
+    parser.add_argument("--example", type=Path, default=Path("fuzzed.txt"))
     options = parser.parse_args()
     counts: Counter[str] = Counter()
     profile = settings(
@@ -41,13 +49,13 @@ def main() -> None:
     @profile
     @given(scenes())
     def try_scene(described):
-        faulthandler.dump_traceback_later(HANGS_S, exit=True)
+        begin(options.example, described)
         counts[f"{kind_of(described[0])} {check_scene(*described)}"] += 1
 
     @profile
     @given(damaged_files())
     def try_file(damaged):
-        faulthandler.dump_traceback_later(HANGS_S, exit=True)
+        begin(options.example, damaged)
         counts[f"{damaged[0]} {check_file(*damaged)}"] += 1
 
     for search in SEARCHES:
@@ -59,6 +67,7 @@ def main() -> None:
             try_file()
         print(f"{sum(counts.values())}: {dict(sorted(counts.items()))}", flush=True)
     faulthandler.cancel_dump_traceback_later()
+    options.example.unlink(missing_ok=True)
 
 
 if __name__ == "__main__":
