@@ -18,8 +18,8 @@ from grainfront import api, figures
 from grainfront.files.contour import Contour
 from grainfront.files.error_vs_time import read_error_vs_time
 from grainfront.files.stability import read_stability
+from grainfront.from_scene.regions import distances
 from grainfront.scene import Scene
-from grainfront.scene_regions import distances
 from grainfront.shapes.images import find_outlines
 from grainfront.studies import sweep
 

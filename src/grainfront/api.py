@@ -14,14 +14,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from grainfront.errors import InputError
+from grainfront.from_scene.packing import empty_packing as empty_packing
+from grainfront.from_scene.packing import pack as pack
+from grainfront.from_scene.packing import pack_to_target as pack_to_target
+from grainfront.from_scene.packing import shape_coverage as shape_coverage
+from grainfront.from_scene.statistics import measure as measure
 from grainfront.particles import Cell, Region
 from grainfront.scene import Scene
 from grainfront.scene import load_scene as load_scene
-from grainfront.scene_packing import empty_packing as empty_packing
-from grainfront.scene_packing import pack as pack
-from grainfront.scene_packing import pack_to_target as pack_to_target
-from grainfront.scene_packing import shape_coverage as shape_coverage
-from grainfront.scene_statistics import measure as measure
 from grainfront.shapes.sources import BinaryMasks, LabelMasks, Photographs, ShapeSource
 
 if TYPE_CHECKING:

@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 
 import grainfront
-from grainfront import api, scene_packing
+from grainfront import api
 from grainfront.errors import InputError
+from grainfront.from_scene.packing import _draw_enough
 from grainfront.laws import Constant, Lognormal, Uniform
 from grainfront.particles import Rectangle
 from grainfront.scene import PackingEffort, Scene
@@ -105,7 +106,7 @@ def test_twice_the_lengths_give_twice_the_packing(database):
 )
 def test_enough_is_drawn_that_not_all_can_be_placed(database, size):
     some = scene(size=size)
-    shape, drawn = scene_packing._draw_enough(some, database, some, some.domain.area, (1, 1))
+    shape, drawn = _draw_enough(some, database, some, some.domain.area, (1, 1))
     area = database.descriptors["hull_area"][shape] * drawn**2
     assert np.sort(area)[:-8].sum() >= some.domain.area
 

@@ -41,28 +41,11 @@ MAY_IMPORT = {
     "laws": STAGE,
     "arrangement": (*STAGE, "laws", "image_files"),
     "draw": (*STAGE, "laws"),
-    "scene_laws": ("laws", "errors"),
-    "scene_arrangement": (
-        "arrangement.zones",
+    "scene": (
         "arrangement.regions",
-        "scene_laws",
-        "laws",
-        "errors",
-    ),
-    "scene_domain": (
         "arrangement.zones",
         "arrangement.resolve",
         "arrangement.polygons_file",
-        "scene_arrangement",
-        "laws",
-        "particles",
-        "errors",
-    ),
-    "scene": (
-        "scene_laws",
-        "scene_arrangement",
-        "scene_domain",
-        "arrangement.regions",
         "laws",
         "shapes.sources",
         "checked_yaml",
@@ -85,10 +68,7 @@ TIES = {
     "stages",
     "studies",
     "warm_up",
-    "scene_limits",
-    "scene_packing",
-    "scene_regions",
-    "scene_statistics",
+    "from_scene",
 }
 
 LIBRARIES = {
@@ -107,7 +87,7 @@ LIBRARIES = {
         "arrangement",
         "files.netcdf",
         "figures.walls",
-        "scene_domain",
+        "scene.domain",
         "studies.error_vs_time",
         "studies.stability.rounding",
     ),

@@ -180,14 +180,14 @@ def test_a_scene_that_needs_absurd_memory_is_refused_with_its_estimate(
     tmp_path, changes, told, monkeypatch
 ):
     there = {"SC_PAGE_SIZE": 4000, "SC_PHYS_PAGES": 4_000_000}
-    monkeypatch.setattr("grainfront.scene_limits.os.sysconf", there.__getitem__)
+    monkeypatch.setattr("grainfront.from_scene.limits.os.sysconf", there.__getitem__)
     with pytest.raises(InputError, match=f"absurd: a domain of .*{told}"):
         packed(tmp_path, **changes)
 
 
 def test_the_estimate_is_not_exceeded(tmp_path):
     """Memory of all arrays of a packing under way, for the certificate takes no more than that."""
-    from grainfront import scene_limits
+    from grainfront.from_scene import limits
 
     (tmp_path / "s.yaml").write_text(
         SCENE.format(width=100, size="{constant: 1}", n_angle=24, n_loc=20)
@@ -203,7 +203,7 @@ def test_the_estimate_is_not_exceeded(tmp_path):
         if isinstance(array, np.ndarray)
     )
     n = state.supply.size.size
-    assert held < n * (scene_limits.BYTES_A_PARTICLE + 4 * scene_limits.BYTES_A_NODE)
+    assert held < n * (limits.BYTES_A_PARTICLE + 4 * limits.BYTES_A_NODE)
 
 
 @pytest.mark.parametrize(

@@ -70,7 +70,7 @@ def photograph(*, scene: str, picture: str) -> None:
 def arrangement_picture(*, scene: str, picture: str) -> None:
     """Draw the signed distances to the zones of a scene's regions."""
     from grainfront import figures
-    from grainfront.scene_regions import distances
+    from grainfront.from_scene.regions import distances
 
     loaded = api.load_scene(scene)
     measured = distances(loaded)

@@ -9,14 +9,14 @@ _PACKAGE = Path(__file__).parents[1]
 _ALWAYS = (
     "__init__", "api", "arrangement.polygons_file", "arrangement.regions", "arrangement.resolve",
     "arrangement.silhouette", "arrangement.zones", "checked_yaml", "errors", "image_files",
-    "particles", "polygons", "scene", "scene_arrangement", "scene_domain", "scene_laws",
-    "scene_limits", "scene_packing", "scene_statistics", "stages",
+    "from_scene.limits", "from_scene.packing", "from_scene.statistics", "particles", "polygons",
+    "scene", "stages",
 )  # fmt: skip
 _FILES = (
     "files.atomic", "files.contract", "files.dataset", "files.header", "files.netcdf", "files.seal",
 )  # fmt: skip
 _DATABASE = ("shapes.database", "shapes.descriptors")
-_REGIONS = ("arrangement", "scene_regions")
+_REGIONS = ("arrangement", "from_scene.regions")
 _LAWS = ("laws", "shapes.sources", *_ALWAYS)
 SOURCES = {
     "shapes": ("draw", "shapes", "laws", *_FILES, *_ALWAYS),

@@ -9,10 +9,11 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from grainfront import api, scene_packing
+from grainfront import api
 from grainfront.arrangement.build import resolve_regions
 from grainfront.arrangement.regions import Arrangement, GradedAlong, LocalLaws, Region
 from grainfront.arrangement.zones import Bars, Box, Circle, HalfPlane, Moved, Polygon, Union
+from grainfront.from_scene.packing import _empty
 from grainfront.laws import Constant, Lognormal, Normal, Uniform
 from grainfront.particles import Rectangle
 from grainfront.scene import PackingEffort, Scene, Target
@@ -113,7 +114,7 @@ def test_the_pruned_search_hardly_ever_misses_what_exhaustive_search_chooses(law
     # places along the edges of regions may escape the scouts: 1 in 1,000 steps where grains are
     # small beside regions, more in this small domain
     arranged = scene(Arrangement((region(STAR, **laws),)), n_angle=6, n_loc=8)
-    state = scene_packing._empty(arranged, DATABASE, seed, np.random.default_rng(seed))
+    state = _empty(arranged, DATABASE, seed, np.random.default_rng(seed))
     missed = 0
     while not state.finished:
         exhaustive = state.copy()._replace(memory=None)

@@ -11,14 +11,15 @@ import pytest
 import yaml
 from jsonschema import Draft202012Validator
 
-from grainfront import laws, scene
+from grainfront import laws
 from grainfront.draw import coverage, draw_particles
 from grainfront.errors import InputError
 from grainfront.scene import load_scene, scene_schema
+from grainfront.scene.laws import LAWS
 from grainfront.shapes import sources
 from grainfront.shapes.database import build_database
 
-CONFIG = Path(__file__).parents[2] / "config"
+CONFIG = Path(__file__).parents[3] / "config"
 SHIPPED = sorted(CONFIG.glob("scenes/*.yaml"))
 
 MINIMAL = """
@@ -105,10 +106,10 @@ def test_schema_and_shape_sources_have_the_same_keys_and_defaults(path, cls):
             assert (tuple(default) if isinstance(default, list) else default) == fields[name], name
 
 
-@pytest.mark.parametrize("kind", scene.LAWS)
+@pytest.mark.parametrize("kind", LAWS)
 def test_schema_and_laws_have_the_same_keys(kind):
     described = scene_schema()["$defs"][kind]
-    fields = dataclasses.fields(scene.LAWS[kind])
+    fields = dataclasses.fields(LAWS[kind])
     assert set(described["properties"]) == {field.name for field in fields}
     needed = {field.name for field in fields if field.default is dataclasses.MISSING}
     assert set(described["required"]) == needed

@@ -17,7 +17,7 @@ from grainfront.arrangement.regions import (
 from grainfront.arrangement.zones import Zone
 from grainfront.errors import InputError
 from grainfront.laws import Law, Truncated, require_possible
-from grainfront.scene_laws import law_of, matched_of
+from grainfront.scene.laws import law_of, matched_of
 
 # Finds the file of a given name, told under a given key.
 Find = Callable[[str, str], str]

@@ -10,19 +10,19 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from grainfront.errors import InputError
+from grainfront.from_scene.limits import require_memory, require_outlined, require_resolved
 from grainfront.particles import Cell
 from grainfront.scene import Scene
-from grainfront.scene_limits import require_memory, require_outlined, require_resolved
 
 if TYPE_CHECKING:
     from grainfront.draw import Coverage
+    from grainfront.from_scene.regions import RegionLaws
     from grainfront.laws import Law
     from grainfront.packing.fraction import Attempts
     from grainfront.packing.pack import RunTime
     from grainfront.packing.prepare import State
     from grainfront.packing.state import OrientationLaw
     from grainfront.particles import Packing
-    from grainfront.scene_regions import RegionLaws
     from grainfront.shapes.database import ShapeDatabase
 
 # Every stage draws from a generator of its own, so that none disturbs another.
@@ -185,11 +185,11 @@ def _empty_arranged(
     scene: Scene, database: ShapeDatabase, seed: int, rng: np.random.Generator
 ) -> State:
     """As `_empty`, with particles for each law of the arrangement."""
-    from grainfront import scene_regions
+    from grainfront.from_scene import regions
     from grainfront.packing.arranged import arrangement_of
     from grainfront.packing.prepare import prepare
 
-    found = scene_regions.plan(scene)
+    found = regions.plan(scene)
     for law in found.laws:
         _require_shapes(scene, database, law)
     drawn = [
@@ -214,7 +214,7 @@ def _empty_arranged(
         float(scene.size.quantile(1.0 - SMALLEST_SHARE)),
     )
     hull_area = float(database.descriptors["hull_area"].mean())
-    return empty._replace(keeper=scene_regions.keeper(scene, found, last, size, hull_area))
+    return empty._replace(keeper=regions.keeper(scene, found, last, size, hull_area))
 
 
 def _orientation(scene: Scene, law: Law) -> OrientationLaw:

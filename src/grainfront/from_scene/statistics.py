@@ -12,8 +12,8 @@ from grainfront.laws import Law
 from grainfront.scene import Scene
 
 if TYPE_CHECKING:
+    from grainfront.from_scene.regions import RegionLaws
     from grainfront.particles import Packing
-    from grainfront.scene_regions import RegionLaws
     from grainfront.shapes.database import ShapeDatabase
     from grainfront.statistics import PackingStatistics
     from grainfront.statistics.regions import Bins, RegionStatistics
@@ -54,11 +54,11 @@ def _measure_regions(scene: Scene, database: ShapeDatabase, packing: Packing) ->
 
     The law of a graded region is that of its strata, each as often as it has particles.
     """
-    from grainfront import scene_regions
     from grainfront.arrangement.build import assign
+    from grainfront.from_scene import regions
     from grainfront.statistics.regions import measure_regions
 
-    plan = scene_regions.plan(scene)
+    plan = regions.plan(scene)
     found = assign(plan.regions, packing.x, packing.y)
     rest = len(plan.laws) - 1
     stratum = np.where(found.stratum < 0, rest, found.stratum)
@@ -78,17 +78,17 @@ def _parted_as_placed(
     scene: Scene, laws: Sequence[RegionLaws], count: np.ndarray
 ) -> Sequence[RegionLaws]:
     """The laws, that of the sizes parted where the finer particles placed leave off."""
-    from grainfront import scene_regions
+    from grainfront.from_scene import regions
 
     part = [law.part for law in laws]
     coarser, finer = (
         sum(n for n, p in zip(count.tolist(), part, strict=True) if p == which)
-        for which in (scene_regions.COARSER, scene_regions.FINER)
+        for which in (regions.COARSER, regions.FINER)
     )
     if not (coarser and finer):
         return laws
     critical = float(scene.size.quantile(finer / (finer + coarser)))
-    return scene_regions.parted(scene, laws, critical)
+    return regions.parted(scene, laws, critical)
 
 
 def _bins_of(

@@ -6,7 +6,6 @@ import sys
 
 import pytest
 
-from grainfront import scene_arrangement
 from grainfront.arrangement.regions import (
     Arrangement,
     GradedAlong,
@@ -30,7 +29,7 @@ from grainfront.arrangement.zones import (
 )
 from grainfront.errors import InputError
 from grainfront.laws import Lognormal, Normal, Truncated, Uniform
-from grainfront.scene import load_scene, scene_schema
+from grainfront.scene import arrangement, load_scene, scene_schema
 
 SCENE = """
 seed: 3
@@ -250,10 +249,10 @@ def test_faults_are_told_in_one_sentence(tmp_path, regions, told):
         assert fragment in message
 
 
-@pytest.mark.parametrize("name", scene_arrangement.PRIMITIVES)
+@pytest.mark.parametrize("name", arrangement.PRIMITIVES)
 def test_schema_and_zones_have_the_same_keys_and_defaults(name):
     described = scene_schema()["$defs"]["zone"]["properties"][name]
-    fields = dataclasses.fields(scene_arrangement.PRIMITIVES[name])
+    fields = dataclasses.fields(arrangement.PRIMITIVES[name])
     assert set(described["properties"]) == {field.name for field in fields}
     needed = {field.name for field in fields if field.default is dataclasses.MISSING}
     assert set(described["required"]) == needed
@@ -266,8 +265,8 @@ def test_schema_and_zones_have_the_same_keys_and_defaults(name):
 
 def test_schema_and_reader_have_the_same_zones():
     described = set(scene_schema()["$defs"]["zone"]["properties"])
-    known = {*scene_arrangement.PRIMITIVES, *scene_arrangement.OPERATIONS}
-    assert described == known | set(scene_arrangement.MODIFIERS)
+    known = {*arrangement.PRIMITIVES, *arrangement.OPERATIONS}
+    assert described == known | set(arrangement.MODIFIERS)
 
 
 def test_reading_an_arrangement_imports_nothing_heavy(tmp_path):

@@ -9,7 +9,7 @@ from grainfront.laws import Law
 from grainfront.particles import Cell, Rectangle, Region
 
 if TYPE_CHECKING:
-    from grainfront.scene_arrangement import Find
+    from grainfront.scene.arrangement import Find
 
 # No particle of size 1 has a smaller inscribed circle than an equilateral triangle: of this radius.
 LEAST_INRADIUS = 1.0 / 3.0
@@ -76,7 +76,7 @@ def _rectangle(data: dict[str, Any]) -> Rectangle:
 def _inside(data: dict[str, Any], find: Find) -> tuple[Region, set[str]]:
     from grainfront.arrangement.resolve import resolve_bounded
     from grainfront.arrangement.zones import files_of
-    from grainfront.scene_arrangement import zone_of
+    from grainfront.scene.arrangement import zone_of
 
     given = [key for key in ("width", "height") if key in data]
     if given:

@@ -1,0 +1,1 @@
+"""From a scene to its packing and its statistics: what ties laws, regions and kernels together."""
