@@ -111,3 +111,19 @@ def test_slices_of_a_notched_domain_with_corners_on_the_border():
     one, polygons = np.ones(1), Polygons.of([square])
     packing = Packing(Region.of(notched), polygons, *[one] * 7, np.zeros(1, dtype=np.int64), 0)
     assert volume_fraction_between(packing, 1, 3.75, 5.0) == pytest.approx(0.5 / 4.5)
+
+
+def test_regions_where_a_scout_finds_no_place_among_obstacles():
+    """Found by fuzzing: the region of a place at ∞ was looked for, which was a traceback."""
+    outer = [[0.495, 0.2475], [0.505, 0.2475], [0.505, 0.2525], [0.495, 0.2525], [0.495, 0.2475]]
+    stone = {"stones.geojson": json.dumps({"type": "Polygon", "coordinates": [outer]})}
+    zone = {"polygon": {"nodes": [[0, 0], [1, 0], [0, 1]]}}
+    domain = {
+        "domain": {"width": 1, "height": 1},
+        "obstacles": {"path": "stones.geojson"},
+        "shapes": {"family": {"regular_polygon": {"vertices": 3}}},
+        "orientation": {"constant": 0},
+        "packing": {"n_angle": 1, "n_loc": 8, "n_bin": 1},
+        "arrangement": {"regions": [{"inside": zone, "size": {"constant": 0.6}}]},
+    }
+    assert check_scene(SMALL | domain, stone) == "packed"

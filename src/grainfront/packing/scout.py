@@ -137,7 +137,7 @@ def bound_pairs(
             domain.obstacles, front, placed, grid, domain, trials, circumradius, scout,
             begin + p, begin + p + 1,
         )  # fmt: skip
-        if arrangement is not None and y > -math.inf and is_elsewhere(arrangement, law, x, y):
+        if arrangement is not None and math.isfinite(y) and is_elsewhere(arrangement, law, x, y):
             y = math.inf
         memory.height[p] = y
         memory.covers[p, 0] = i - begin

@@ -27,7 +27,7 @@ LEAST_FRACTION = 0.75
 MOST_E2 = 1.0
 MOST_LOST = 1e-9
 
-# Why packings of slivers and of narrow domains may leave much of the domain empty.
+# Why packings of slivers may leave much of the domain empty.
 STEERED = "it ends where no grain in waiting fits in the orientations that its law offers"
 
 
