@@ -127,3 +127,16 @@ def test_regions_where_a_scout_finds_no_place_among_obstacles():
         "arrangement": {"regions": [{"inside": zone, "size": {"constant": 0.6}}]},
     }
     assert check_scene(SMALL | domain, stone) == "packed"
+
+
+def test_slices_that_an_obstacle_leaves_a_rounding_of():
+    """Found by fuzzing: of an area of rounding alone -0.29 was filled."""
+    square = np.array([[0.0, 0.5], [0.5, 0.5], [0.5, 1.0], [0.0, 1.0]]) * 0.7 - [0.3, 0.0]
+    right = float(np.nextafter(0.4, 1.0))
+    notched = shapely.Polygon(
+        [(0.4, 0.0), (right, 0.0), (right, 0.7), (-0.3, 0.7), (-0.3, 0.35), (0.4, 0.35)]
+    )
+    one, polygons = np.ones(1), Polygons.of([square])
+    packing = Packing(Region.of(notched), polygons, *[one] * 7, np.zeros(1, dtype=np.int64), 0)
+    assert np.isnan(volume_fraction_between(packing, 1, 0.0, 0.175))
+    assert volume_fraction_between(packing, 1, 0.35, 0.7) == pytest.approx(0.5)

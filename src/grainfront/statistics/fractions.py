@@ -14,6 +14,9 @@ from grainfront.polygons import Polygons
 BULK_MARGIN = 2.0
 """Width of the strip along the walls that the bulk leaves out, in square roots of the mean area."""
 
+SLIVER = 1e-9
+"""Share of a slice that is the domain's, up to which it is taken for rounding of coordinates."""
+
 
 def volume_fraction(packing: Packing) -> float:
     """Area of the particles over the area of the domain."""
@@ -110,7 +113,8 @@ def _fraction_of_cell(packing: Packing, cell: Cell) -> float:
 def volume_fraction_between(packing: Packing, axis: int, low: float, high: float) -> float:
     """Volume fraction between two lines across an axis (0: x, 1: y) of the domain.
 
-    Particles that reach over the border of a periodic cell come in again on the other side.
+    Particles that reach over the border of a periodic cell come in again on the other side. NaN
+    where nothing of the domain lies between the lines.
     """
     domain = packing.domain
     period = (domain.width, domain.height)[axis]
@@ -119,13 +123,13 @@ def volume_fraction_between(packing: Packing, axis: int, low: float, high: float
         _area_between(packing.polygons, axis, low + shift, high + shift)
         for shift in ((-period, 0.0, period) if repeats else (0.0,))
     )
-    whole = (high - low) * (domain.height if axis == 0 else domain.width)
+    whole = slice_area = (high - low) * (domain.height if axis == 0 else domain.width)
     if isinstance(domain, Region):
         sides = np.array([domain.x_min, domain.y_min, domain.x_max, domain.y_max])
         sides[[axis, axis + 2]] = low, high
         # clip_by_rect of GEOS takes wrong areas where a concave polygon has corners on the border
         whole = shapely.intersection(domain.to_shapely(), shapely.box(*sides)).area
-    return area / whole if whole else float("nan")
+    return area / whole if whole > SLIVER * slice_area else float("nan")
 
 
 def _area_between(polygons: Polygons, axis: int, low: float, high: float) -> float:
