@@ -48,11 +48,19 @@ arrangement:
     - inside: {circle: {centre: [5, 5], radius: 3}}
       size: {uniform: {minimum: 0.4, maximum: 0.7}}
 """
-SCENES = {"rectangles": RECTANGLES, "outlines": OUTLINES, "regions": REGIONS}
+WALLS = """\
+seed: 3
+domain: {inside: {polygon: {nodes: [[0, 0], [6, 1], [12, 0], [9, 10], [4, 11]]}}}
+shapes: {family: {random_convex_polygon: {vertices: 6, count: 5}}}
+size: {uniform: {minimum: 0.5, maximum: 1.1}}
+packing: {n_angle: 2, n_loc: 2, n_bin: 12}
+"""
+SCENES = {"rectangles": RECTANGLES, "outlines": OUTLINES, "regions": REGIONS, "walls": WALLS}
 GOLDEN = {
     "rectangles": "24b1d2ddbd0d6be158f8fe11143ced2800d130a0c8831a0e133c1a5b347e85df",
     "outlines": "b057318c73ce7ce09a89332bb5d55f8157f070ca858bce3452546ce0308cc791",
-    "regions": "4dd8e32aac82a91ca7efe57200ea28bf20f88f2673884f140fd67d87dcd86893",
+    "regions": "1826b7316c482d4cd96434a24fdf8943d226e582b777109401e241daa8a913a7",
+    "walls": "3552a2b86ba8d6614eda7a0d85bd51ef8fe0bbdeb2623899bec589c36dc70856",
 }
 # Of the functions that libraries compute in their own way on each kind of processor.
 ARITHMETIC = "a64996b422947921d48f6f0449c8724d5eaeae3fce27e8b4056f5f7d87f9aa4f"
