@@ -10,9 +10,9 @@ from scenes import scene_and_shapes
 from table import Spread, Table
 
 from grainfront.draw import draw_particles
-from grainfront.packing.advance import N_PLACED
 from grainfront.packing.orientations import STEPS_A_BIN, orientation_law
 from grainfront.packing.prepare import State, prepare
+from grainfront.packing.turns import N_PLACED
 from grainfront.scene import Scene
 from grainfront.shapes.database import ShapeDatabase
 

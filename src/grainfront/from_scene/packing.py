@@ -243,7 +243,7 @@ def _draw_enough(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Shapes and sizes of so many particles that they cannot all find a place in an area."""
     from grainfront.draw import draw_particles
-    from grainfront.packing.advance import WAITING_PLACES
+    from grainfront.packing.turns import WAITING_PLACES
 
     hull_area = database.descriptors["hull_area"]
     matched = None

@@ -11,14 +11,7 @@ from grainfront.geometry.placing import radii_about_origin
 from grainfront.geometry.regions import REST
 from grainfront.geometry.rings import polygon_areas
 from grainfront.packing import search_of
-from grainfront.packing.advance import (
-    FINISHED,
-    N_COUNTERS,
-    N_PLACED,
-    N_TOO_LARGE,
-    WAITING_PLACES,
-    advance,
-)
+from grainfront.packing.advance import advance
 from grainfront.packing.arranged import NO_MEMBER, Arrangement
 from grainfront.packing.control import Control
 from grainfront.packing.front import make_front
@@ -39,6 +32,7 @@ from grainfront.packing.state import (
     Supply,
     Trials,
 )
+from grainfront.packing.turns import FINISHED, N_COUNTERS, N_PLACED, N_TOO_LARGE, WAITING_PLACES
 from grainfront.particles import Packing, Rectangle, Region
 from grainfront.polygons import Polygons
 

@@ -12,7 +12,13 @@ import math
 import numpy as np
 
 from grainfront.jit import inlined, kernel
-from grainfront.packing.advance import (
+from grainfront.packing.advance import store
+from grainfront.packing.arranged import admitted
+from grainfront.packing.obstacles import overlaps_obstacle
+from grainfront.packing.orientations import draw_orientations, turn_and_inflate
+from grainfront.packing.state import LEFT_WALL, RIGHT_WALL, Trial
+from grainfront.packing.trials import RESOLVED, contact_of_pair, overlaps_particle
+from grainfront.packing.turns import (
     EMPTY_ROWS,
     FINISHED,
     N_PLACED,
@@ -20,14 +26,8 @@ from grainfront.packing.advance import (
     TOO_HIGH_IN_ROW,
     begin_turn,
     draw_next,
-    store,
     take_from_waiting,
 )
-from grainfront.packing.arranged import admitted
-from grainfront.packing.obstacles import overlaps_obstacle
-from grainfront.packing.orientations import draw_orientations, turn_and_inflate
-from grainfront.packing.state import LEFT_WALL, RIGHT_WALL, Trial
-from grainfront.packing.trials import RESOLVED, contact_of_pair, overlaps_particle
 
 
 @inlined

@@ -12,11 +12,11 @@ from grainfront.certificate import certify
 from grainfront.geometry.placing import place_polygon
 from grainfront.geometry.rings import polygon_areas
 from grainfront.jit import kernel
-from grainfront.packing.advance import N_PLACED, WAITING_PLACES
 from grainfront.packing.front import front_length, member_at, position_of
 from grainfront.packing.orientations import orientation_law
 from grainfront.packing.pack import fill
 from grainfront.packing.prepare import prepare
+from grainfront.packing.turns import N_PLACED, WAITING_PLACES
 from grainfront.particles import Rectangle
 from grainfront.polygons import Polygons
 from grainfront.statistics import find_contacts

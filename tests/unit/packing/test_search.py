@@ -9,9 +9,9 @@ import pytest
 
 from grainfront.geometry.rings import polygon_areas
 from grainfront.packing import PRUNED_FROM_N_LOC, search_of
-from grainfront.packing.advance import N_PLACED
 from grainfront.packing.orientations import orientation_law
 from grainfront.packing.prepare import prepare
+from grainfront.packing.turns import N_PLACED
 from grainfront.particles import Rectangle
 from grainfront.polygons import Polygons
 
