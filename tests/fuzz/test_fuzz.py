@@ -140,3 +140,10 @@ def test_slices_that_an_obstacle_leaves_a_rounding_of():
     packing = Packing(Region.of(notched), polygons, *[one] * 7, np.zeros(1, dtype=np.int64), 0)
     assert np.isnan(volume_fraction_between(packing, 1, 0.0, 0.175))
     assert volume_fraction_between(packing, 1, 0.35, 0.7) == pytest.approx(0.5)
+
+
+def test_a_truncated_law_without_a_maximum():
+    """Found by fuzzing: rounding made 1 of the largest share below it, and a size of ∞."""
+    law = {"normal": {"mean": 1, "standard_deviation": 0.49, "minimum": 0.2}}
+    region = {"inside": {"circle": {"centre": [3, 3], "radius": 1}}, "size": {"constant": 0.6}}
+    assert check_scene(SMALL | {"size": law, "arrangement": {"regions": [region]}}) == "packed"

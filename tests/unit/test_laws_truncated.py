@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from grainfront.errors import InputError
-from grainfront.laws import Constant, GradingCurve, Lognormal, Truncated, Uniform
+from grainfront.laws import Constant, GradingCurve, Lognormal, Normal, Truncated, Uniform
 
 U = np.linspace(0.0, 1.0, 41)
 
@@ -42,3 +42,15 @@ def test_an_empty_range_is_refused():
         Truncated(Uniform(1.0, 2.0), 3.0)
     with pytest.raises(InputError, match="holds 0 of the law"):
         Truncated(Uniform(1.0, 2.0), 1.8, 1.2)
+
+
+@pytest.mark.parametrize(
+    "law",
+    [
+        Normal(mean=1.0, standard_deviation=0.5, minimum=0.2),
+        Lognormal(median=1.0, log_standard_deviation=0.5, minimum=0.2),
+        Truncated(Normal(mean=1.0, standard_deviation=0.5), minimum=0.2),
+    ],
+)
+def test_shares_below_one_have_finite_values(law):
+    assert np.isfinite(law.quantile(np.nextafter(1.0, 0.0)))

@@ -33,6 +33,15 @@ def require_kept(below: float, up_to: float, minimum: float | None, maximum: flo
     )
 
 
+def share_of_whole(u: np.ndarray, below: float, up_to: float) -> np.ndarray:
+    """The shares of the whole law that are the shares `u` of what a range keeps of it.
+
+    Rounding must not make 1 of less than 1, where a law without a maximum has no finite value.
+    """
+    share = below + u * (up_to - below)
+    return np.where(u < 1.0, np.minimum(share, np.nextafter(1.0, 0.0)), share)
+
+
 @dataclass(frozen=True, kw_only=True)
 class TruncatedLaw(Law):
     """A family truncated to [`minimum`, `maximum`]; an end that is None stays as the family has it.
@@ -70,7 +79,7 @@ class TruncatedLaw(Law):
     def quantile(self, u: ArrayLike) -> np.ndarray:
         u = np.asarray(u, dtype=np.float64)
         below, up_to = self._kept()
-        values = self._whole_quantile(below + u * (up_to - below))
+        values = self._whole_quantile(share_of_whole(u, below, up_to))
         # rounding must neither pass the ends nor miss them
         if self.minimum is not None:
             values = np.where(u <= 0.0, self.minimum, np.maximum(values, self.minimum))

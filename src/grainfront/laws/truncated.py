@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from grainfront.laws.families import require_kept
+from grainfront.laws.families import require_kept, share_of_whole
 from grainfront.laws.law import Law, require_finite
 
 
@@ -35,7 +35,7 @@ class Truncated(Law):
 
     def quantile(self, u: ArrayLike) -> np.ndarray:
         below, up_to = self._kept()
-        values = self.law.quantile(below + np.asarray(u, dtype=np.float64) * (up_to - below))
+        values = self.law.quantile(share_of_whole(np.asarray(u, dtype=np.float64), below, up_to))
         # rounding must not pass the ends
         return np.clip(values, self.minimum, self.maximum)
 
