@@ -205,6 +205,20 @@ def warn_of_empty_rooms(name: str | Path, packing: Packing) -> None:
     )
 
 
+def warn_of_empty_regions(name: str | Path, scene: Scene, packing: Packing) -> None:
+    """Say on standard error which regions of an arrangement got no particle."""
+    if scene.arrangement is None or packing.region is None:
+        return
+    empty = sorted(set(range(len(scene.arrangement.regions))).difference(packing.region.tolist()))
+    if empty:
+        print(
+            f"grainfront: warning: {name}: no particle found a place in "
+            f"{', '.join(f'arrangement.regions[{number}]' for number in empty)}: there may be no "
+            "room for grains as large.",
+            file=sys.stderr,
+        )
+
+
 def sentence(error: Exception) -> str:
     """What a user is told of an error in the input or in reading and writing: one sentence."""
     text = " ".join(str(error).split()).rstrip(".") or type(error).__name__

@@ -149,8 +149,8 @@ def _sentence(error: Any) -> str:
         return f"{_dotted((*keys, key))} is given, but must come with {_keys(value[key])}"
     if rule in LIMITS:
         allowed = f"{LIMITS[rule]} {_keys(value) if rule == 'enum' else value}"
-    elif rule == "type":
-        allowed = " or ".join(TYPES[t] for t in ([value] if isinstance(value, str) else value))
+    elif rule == "type" or (rule == "pattern" and _only_word(error.schema)):
+        allowed = _allowed_types(error.schema)
     elif rule == "minItems":
         allowed = f"a list at least {value} long"
     elif rule == "maxItems":
@@ -162,6 +162,19 @@ def _sentence(error: Any) -> str:
     else:
         allowed = f"text of the pattern {value}" if rule == "pattern" else error.message
     return f"{_dotted(keys)} is {_shown(found)}, but must be {allowed}"
+
+
+def _only_word(schema: dict[str, Any]) -> str | None:
+    """The one word that a schema allows as text, if it is so."""
+    found = re.fullmatch(r"\^(\w+)\$", schema.get("pattern", ""))
+    return found[1] if found else None
+
+
+def _allowed_types(schema: dict[str, Any]) -> str:
+    """The kinds of values that a schema allows, such as: a number or auto."""
+    types = [schema["type"]] if isinstance(schema["type"], str) else schema["type"]
+    word = _only_word(schema)
+    return " or ".join(word if word and t == "string" else TYPES[t] for t in types)
 
 
 def _unknown_key(keys: tuple, found: dict, allowed: list[str]) -> str:

@@ -202,8 +202,8 @@ FAULTS = [
     ("    - size: {truncated: {}}", ["size.truncated has no key", "minimum, maximum"]),
     ("    - size: {truncated: {minimum: 5}}", ["size.truncated: the range", "holds 0 of"]),
     ("    - size: {finer_than: 5}", ["size.finer_than is 5", "from 0.2 to 0.6"]),
-    ("    - size: {finer_than: [5]}", ["size.finer_than is [5]", "a number or text"]),
-    ("    - size: {finer_than: automatic}", ["size.finer_than is 'automatic'", "auto"]),
+    ("    - size: {finer_than: [5]}", ["size.finer_than is [5]", "a number or auto"]),
+    ("    - size: {finer_than: automatic}", ["size.finer_than is 'automatic'", "a number or auto"]),
     (
         "    - size: {finer_than: auto}\n    - size: {coarser_than: 0.3}",
         ["regions[1].size.coarser_than is 0.3, but must be auto, as in arrangement.regions[0]"],

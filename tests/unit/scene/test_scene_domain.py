@@ -176,6 +176,18 @@ def test_a_room_that_stays_empty_is_told(tmp_path, capsys):
     assert "about (11, 5" in told
 
 
+def test_a_region_that_stays_empty_is_told(tmp_path, capsys):
+    narrow = "{inside: {circle: {centre: [14, 0.4], radius: 0.5}}, size: {constant: 3}}"
+    wide = "{inside: {circle: {centre: [5, 5], radius: 3}}, size: {constant: 0.7}}"
+    regions = f"arrangement: {{regions: [{wide}, {narrow}]}}"
+    scene = load(tmp_path, (PLAIN, f"{PLAIN}\n{regions}"))
+    packing, _ = api.pack(scene, api.build_shapes(scene), 1)
+    api.warn_of_empty_regions("packing.nc", scene, packing)
+    told = capsys.readouterr().err
+    assert told.startswith("grainfront: warning: packing.nc: no particle") and told.count("\n") == 1
+    assert "arrangement.regions[1]:" in told
+
+
 def test_each_domain_has_its_kernels(tmp_path):
     assert api.searches(load(tmp_path)) == ["exhaustive"]
     assert api.searches(load(tmp_path, (PLAIN, L_SHAPE))) == ["exhaustive_outlined"]
