@@ -59,7 +59,7 @@ SCENES = {"rectangles": RECTANGLES, "outlines": OUTLINES, "regions": REGIONS, "w
 GOLDEN = {
     "rectangles": "24b1d2ddbd0d6be158f8fe11143ced2800d130a0c8831a0e133c1a5b347e85df",
     "outlines": "b057318c73ce7ce09a89332bb5d55f8157f070ca858bce3452546ce0308cc791",
-    "regions": "1826b7316c482d4cd96434a24fdf8943d226e582b777109401e241daa8a913a7",
+    "regions": "4dd8e32aac82a91ca7efe57200ea28bf20f88f2673884f140fd67d87dcd86893",
     "walls": "3552a2b86ba8d6614eda7a0d85bd51ef8fe0bbdeb2623899bec589c36dc70856",
 }
 # Of the functions that libraries compute in their own way on each kind of processor.

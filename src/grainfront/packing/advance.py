@@ -146,7 +146,7 @@ def advance(
     advancing front method. With a control, n_angle and n_loc are the most that it may spend. With
     an arrangement, particles are drawn by where the rough centre lies, the mean of the two chosen
     boundaries, and placed where their region is (paper, Pseudocode 7). Where no waiting particle
-    finds a place, the front moves on by n_loc members: half of the next local front is new.
+    finds a place, the front moves on by a part of n_loc.
     """
     most_n_angle, most_n_loc = n_angle, n_loc
     places = queues.waiting.shape[1]

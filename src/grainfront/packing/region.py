@@ -9,6 +9,7 @@ import shapely
 
 from grainfront.geometry.pieces import convex_pieces
 from grainfront.geometry.placing import radii_about_origin
+from grainfront.packing.arranged import NO_MEMBER
 from grainfront.packing.state import Obstacles, Placed, Reached
 from grainfront.particles import Region
 from grainfront.polygons import Polygons
@@ -116,6 +117,8 @@ def make_obstacles(
         search=np.zeros(1, dtype=np.int64),
         overlapped=np.full(1, -1, dtype=np.int64),
         reached=make_reached(pieces.count),
+        closed_to=np.full(first + 3, NO_MEMBER, dtype=np.int64),
+        closed_from=np.zeros(first + 3),
         splits=np.zeros(first, dtype=np.bool_),
     )
 

@@ -2,7 +2,7 @@
 
 No orientation of the particle gets lower than the scout, resolved once at every pair, gets nearby.
 The bound is not proven; the tests hold the choice it leads to against exhaustive search over many
-thousand steps. Among obstacles 4 of 6,129 choices, of triangles all, were not the lowest.
+thousand steps. Among obstacles 5 of 6,121 choices, of triangles mostly, were not the lowest.
 """
 
 from __future__ import annotations
@@ -46,10 +46,17 @@ def shape_scout(trials, start, angle, inradius):
 def rest_of_scout(obstacles, front, placed, grid, domain, trials, circumradius, scout, i, k):
     """Where the scout, sent from the pair (i, k), rests among obstacles: (x, y, i, k).
 
-    Where it finds no place, y is ∞.
+    Where it finds no place, y is ∞. A link of the front where one found none is closed to all that
+    are no smaller: what is empty only shrinks.
     """
+    if obstacles is None:
+        return 0.0, -math.inf, i, k
     begin = i
-    while obstacles is not None:
+    link = member_at(front, i)
+    following = member_at(front, k)
+    if obstacles.closed_to[link] == following and obstacles.closed_from[link] <= scout.inradius:
+        return 0.0, math.inf, i, k
+    while True:
         a = member_at(front, i)
         b = member_at(front, k)
         if near_obstacles(obstacles, placed, domain, circumradius, a, b):
@@ -57,6 +64,8 @@ def rest_of_scout(obstacles, front, placed, grid, domain, trials, circumradius, 
                 obstacles, front, placed, grid, domain, trials, scout, i, k, math.inf
             )
             if status == BLOCKED:
+                obstacles.closed_to[link] = following
+                obstacles.closed_from[link] = scout.inradius
                 return x, math.inf, begin, begin + 1
             if status != OVERLAPPING:
                 return x, y, i, k
@@ -71,7 +80,6 @@ def rest_of_scout(obstacles, front, placed, grid, domain, trials, circumradius, 
             i = position
         else:
             k = position
-    return 0.0, -math.inf, i, k
 
 
 @inlined

@@ -56,6 +56,8 @@ class Obstacles(NamedTuple):
     search: np.ndarray  # (1,) number of the current search
     overlapped: np.ndarray  # (1,) the latest that a trial overlapped, or -1
     reached: Reached
+    closed_to: np.ndarray  # (n + 3,) of each member: the next one, if a scout found no place there
+    closed_from: np.ndarray  # (n + 3,) and the least radius of such a scout
     splits: np.ndarray  # (n,) whether a piece lies between a particle of the front and the next one
 
 
