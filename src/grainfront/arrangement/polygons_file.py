@@ -36,7 +36,7 @@ def read_polygons(path: str) -> shapely.Geometry:
     parts: list[shapely.Geometry] = []
     for line in lines:
         try:
-            with np.errstate(invalid="ignore"):  # NaN is told below
+            with np.errstate(invalid="ignore", over="ignore"):  # NaN and ∞ are told below
                 geometry = READERS[suffix](line)
         except (shapely.GEOSException, ValueError) as reason:
             told = str(reason).strip().split("\n")[0][:200]

@@ -106,7 +106,7 @@ def _geojson(path: str, text: str) -> Iterator[Placed]:
         if not isinstance(found, dict) or "type" not in found:
             raise InputError(f"{path}, {place}: no GeoJSON geometry, which has a type.")
         try:
-            with np.errstate(invalid="ignore"):  # NaN is told with its place, below
+            with np.errstate(invalid="ignore", over="ignore"):  # NaN and ∞ are told below
                 geometry = shape(found)
         except Exception as reason:  # shapely raises many kinds for malformed geometry
             raise InputError(f"{path}, {place}: not a GeoJSON geometry ({reason}).") from reason
@@ -118,7 +118,8 @@ def _wkt(path: str, text: str) -> Iterator[Placed]:
         if not line.strip():
             continue
         try:
-            geometry = shapely.from_wkt(line)
+            with np.errstate(invalid="ignore", over="ignore"):  # NaN and ∞ are told below
+                geometry = shapely.from_wkt(line)
         except (shapely.GEOSException, ValueError, NotImplementedError) as reason:
             raise InputError(f"{path}, line {number}: not WKT ({reason}).") from reason
         yield from _rings(path, f"line {number}", geometry)

@@ -72,6 +72,7 @@ BAD = [
     ("a.geojson", "[1, 2]", "GeoJSON is one object"),
     ("a.geojson", '{"type": "FeatureCollection", "features": []}', "no outline"),
     ("a.wkt", "POLYGON ((0 0, 1 0, 0 1, 0 0))\nPOLYGON ((0 0, 1", "line 2: not WKT"),
+    ("a.wkt", "POLYGON ((0 0, 1e999 0, 1 1, 0 0))", "line 1.*finite"),
     ("a.wkt", "", "no outline"),
     ("a.csv", "outline,x\n1,2\n", "line 1: the columns"),
     ("a.csv", "outline,x,y\na,0,0\na,one,0\n", "line 3: x = 'one'"),
@@ -91,6 +92,7 @@ BAD = [
 ]
 
 
+@pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize(("name", "text", "message"), BAD)
 def test_bad_files_are_told_by_file_and_place(tmp_path, name, text, message):
     path = tmp_path / name
