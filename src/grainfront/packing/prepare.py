@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -32,7 +33,14 @@ from grainfront.packing.state import (
     Supply,
     Trials,
 )
-from grainfront.packing.turns import FINISHED, N_COUNTERS, N_PLACED, N_TOO_LARGE, WAITING_PLACES
+from grainfront.packing.turns import (
+    FINISHED,
+    LAST_ORIENTATIONS,
+    N_COUNTERS,
+    N_PLACED,
+    N_TOO_LARGE,
+    WAITING_PLACES,
+)
 from grainfront.particles import Packing, Rectangle, Region
 from grainfront.polygons import Polygons
 
@@ -189,7 +197,7 @@ def prepare(
         memory=make_memory(n_angle, n_loc) if search_of(n_angle, n_loc) == "pruned" else None,
         control=None,
         arrangement=arrangement,
-        queues=_queues(last, 0 if arrangement is None else n + 3),
+        queues=_queues(last, 0 if arrangement is None else n + 3, n_angle),
         counters=np.zeros(N_COUNTERS, dtype=np.int64),
         n_angle=n_angle,
         n_loc=n_loc,
@@ -197,7 +205,7 @@ def prepare(
     )
 
 
-def _queues(last: np.ndarray, members: int) -> Queues:
+def _queues(last: np.ndarray, members: int, n_angle: int) -> Queues:
     waiting, parked, placed = np.zeros((3, last.size), dtype=np.int64)
     return Queues(
         drawn=np.concatenate([[0], last[:-1]]),
@@ -209,6 +217,7 @@ def _queues(last: np.ndarray, members: int) -> Queues:
         passed=np.full(members, NO_MEMBER),
         least_height=np.zeros(members),
         rough_centre=np.zeros(3),
+        last_rows=np.array([1 + math.ceil(LAST_ORIENTATIONS / n_angle)]),
     )
 
 

@@ -123,6 +123,7 @@ class Queues(NamedTuple):
     passed: np.ndarray  # (n + 3,) of each member: the next one, if what was tried rested elsewhere
     least_height: np.ndarray  # (n + 3,) and how high that was
     rough_centre: np.ndarray  # (3,) about where the next particle goes: x, y, least height
+    last_rows: np.ndarray  # (1,) rows without a place that end a packing which is not full
 
 
 class Placed(NamedTuple):

@@ -6,12 +6,15 @@ from grainfront.jit import inlined
 from grainfront.packing.arranged import law_at, nth_other_law, rough_centre
 from grainfront.packing.front import front_length, member_at, move_gap, position_of
 from grainfront.packing.settle import FORMER, LATTER
-from grainfront.packing.state import RIGHT_WALL
+from grainfront.packing.state import BOTTOM_WALL, RIGHT_WALL
 
 # Particles that wait at the top for a lower place while others are tried: enough for one giant
 # grain not to end the packing, few enough not to bend the size law.
 WAITING_PLACES = 8
 
+# A packing whose domain is not full ends when the waiting particles have been tried in so many
+# orientations of their laws at least, at every place.
+LAST_ORIENTATIONS = 24
 # So many particles ahead, what a law's bins have so far counts for nothing.
 FAR_AHEAD = 2**30
 
@@ -35,6 +38,15 @@ def exhausted(queues, law):
 
 
 @inlined
+def bottom_is_open(front):
+    """Whether particles may still lie on the bottom."""
+    position = front_length(front) - 1
+    while position >= 0 and member_at(front, position) != BOTTOM_WALL:
+        position -= 1
+    return position >= 0
+
+
+@inlined
 def end_row(front, queues, counters):
     """Begin a new row at the left wall, or finish where the last one placed nothing."""
     parked_more = False
@@ -51,10 +63,11 @@ def end_row(front, queues, counters):
         counters[EMPTY_ROWS] = 0
     elif not left or not parked_more:
         # once more in orientations that the laws do not lack yet: there may be room in just these;
-        # and, unless it is the top that leaves none, in all of the laws: others may never fit
+        # and, unless the domain is full to the top, in all of the laws: others may never fit
+        full = counters[TOO_HIGH_IN_ROW] > 0 and not bottom_is_open(front)
         counters[EMPTY_ROWS] += 1
         queues.parked[:] = 0
-        if counters[EMPTY_ROWS] > (1 if counters[TOO_HIGH_IN_ROW] > 0 else 2):
+        if counters[EMPTY_ROWS] > (1 if full else queues.last_rows[0]):
             counters[FINISHED] = 1
     counters[PLACED_IN_ROW] = 0
     counters[TOO_HIGH_IN_ROW] = 0
