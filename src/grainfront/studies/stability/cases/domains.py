@@ -7,6 +7,7 @@ from grainfront.particles import Rectangle
 from grainfront.studies.stability.case import PLAIN, Case, square
 
 ALL_TOP = "all of it is near the top, where nearly all tries are in vain and room is left"
+FEW_FIT = "few orientations of the law fit below the top: the rest is tried in vain, and lacking"
 FEW = "the few particles share the tries that end a packing, and the start of the kernel"
 
 OFFSETS = [
@@ -26,6 +27,8 @@ SCALES = [
 ]
 NARROW = [
     Case(name="one grain wide", domain=Rectangle(0.0, 0.0, 1.5, 150.0)),
+    Case(name="one grain high", domain=Rectangle(0.0, 0.0, 150.0, 1.5),
+         least_fraction=0.6, most_growth=60.0, most_e2=4.0, reason=FEW_FIT),
     Case(name="two grains wide", domain=Rectangle(0.0, 0.0, 3.0, 150.0)),
     Case(name="three grains wide", domain=Rectangle(0.0, 0.0, 4.5, 150.0)),
     Case(name="domain 1000:1", domain=Rectangle(0.0, 0.0, 2000.0, 2.0),
@@ -46,7 +49,7 @@ NUMBERS = [
         size=Constant(1.0),
         domain=square(1.5),
         least_fraction=0.3,
-        most_growth=100.0,
+        most_growth=300.0,
         reason=FEW,
     ),
     Case(name="a million particles", domain=square(1400.0), efforts=(PLAIN,), seeds=1),
