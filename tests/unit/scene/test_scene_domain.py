@@ -212,7 +212,9 @@ def test_a_cell_hardly_higher_than_its_grains(tmp_path, height, some):
         packing, _ = api.pack(scene, database, 1)
         assert packing.x.size > 0 and api.certify(packing).holds
     else:
-        with pytest.raises(InputError, match=r"s: no particle fits into the domain of 20 by 0.8001"):
+        with pytest.raises(
+            InputError, match=r"s: no particle fits into the domain of 20 by 0.8001"
+        ):
             api.pack(scene, database, 1)
 
 
