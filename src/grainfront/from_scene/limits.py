@@ -11,6 +11,7 @@ from grainfront.errors import InputError
 from grainfront.scene import Scene
 
 if TYPE_CHECKING:
+    from grainfront.particles import Rectangle
     from grainfront.shapes.database import ShapeDatabase
 
 # Bytes that a packing takes up to its certificate and its statistics, at most: for each particle
@@ -21,13 +22,16 @@ BYTES_A_PARTICLE, BYTES_A_NODE = 1000, 40
 CLEARANCES_A_GRAIN = 1e3
 
 
+def _farthest(domain: Rectangle) -> float:
+    """The largest coordinate of a domain."""
+    return max(map(abs, (domain.x_min, domain.y_min, domain.x_max, domain.y_max)))
+
+
 def _clearance(scene: Scene) -> float:
     """The clearance that rounding calls for in the domain of a scene."""
     from grainfront.packing.state import CLEARANCE_ULPS
 
-    domain = scene.domain
-    farthest = max(map(abs, (domain.x_min, domain.y_min, domain.x_max, domain.y_max)))
-    return CLEARANCE_ULPS * float(np.spacing(1.0)) * farthest
+    return CLEARANCE_ULPS * float(np.spacing(1.0)) * _farthest(scene.domain)
 
 
 def require_resolved(scene: Scene) -> None:
@@ -38,8 +42,7 @@ def require_resolved(scene: Scene) -> None:
     allowed = 0.5 * CONTACT_TOLERANCE * scene.size.moment(1)
     clearance = _clearance(scene)
     if clearance > allowed:
-        domain = scene.domain
-        farthest = max(map(abs, (domain.x_min, domain.y_min, domain.x_max, domain.y_max)))
+        farthest = _farthest(scene.domain)
         raise InputError(
             f"{scene.name}: domain reaches to a coordinate of {farthest:g}, but must stay within "
             f"{farthest * allowed / clearance:.3g}, beyond which rounding spoils the contacts of "

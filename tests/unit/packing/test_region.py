@@ -92,7 +92,7 @@ def test_nearly_every_choice_is_that_of_exhaustive_search(family, name):
         exhaustive.advance_to(number + 1)
         others += not np.array_equal(choice.placed.disc[number], exhaustive.placed.disc[number])
     assert exhaustive.n_placed > 100
-    assert others <= 0.01 * exhaustive.n_placed
+    assert others <= (0.0 if family == "rectangles" else 0.006 * exhaustive.n_placed)
 
 
 @pytest.mark.compiled
