@@ -119,6 +119,17 @@ def test_packings_are_the_same_on_one_thread():
     assert digests_elsewhere(**ONE_THREAD) == digests()
 
 
+@pytest.mark.parametrize("rubbish", [-5, 7])
+def test_packings_do_not_depend_on_what_memory_held_before(monkeypatch, rubbish):
+    def full_of_rubbish(shape, dtype=np.float64, **options):
+        value = np.nan if rubbish < 0 and np.dtype(dtype).kind == "f" else rubbish
+        return np.full(shape, value, dtype, **options)
+
+    expected = digests()
+    monkeypatch.setattr(np, "empty", full_of_rubbish)
+    assert digests() == expected
+
+
 @pytest.mark.skipif("NUMBA_DISABLE_JIT" in os.environ, reason="the kernels are not compiled")
 def test_packings_are_the_same_without_compilation():
     assert digests_elsewhere(NUMBA_DISABLE_JIT="1") == digests()
