@@ -81,13 +81,9 @@ class State(NamedTuple):
         """Begin another front where the last one did not come; whether there was a place for it."""
         if self.domain.obstacles is None:
             return False
-        from grainfront.packing.starts import start_front
+        from grainfront.packing.starts import start_anywhere
 
-        return start_front(
-            self.domain.obstacles, self.front, self.placed, self.grid, self.domain, self.supply,
-            self.laws, self.trials, self.arrangement, self.queues, self.counters, self.n_angle,
-            self.n_loc, limit,
-        )  # fmt: skip
+        return start_anywhere(self, limit)
 
     @property
     def n_placed(self) -> int:

@@ -9,8 +9,13 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
+from typing import TYPE_CHECKING
 
+import numpy as np
+import shapely
+
+from grainfront.geometry.rooms import edges_of, holds_a_point, rooms_for_disc
+from grainfront.geometry.signed_distance import ray_parity
 from grainfront.jit import inlined, kernel
 from grainfront.packing.advance import store
 from grainfront.packing.arranged import admitted
@@ -28,6 +33,10 @@ from grainfront.packing.turns import (
     draw_next,
     take_from_waiting,
 )
+
+if TYPE_CHECKING:
+    from grainfront.packing.prepare import State
+    from grainfront.packing.state import Obstacles
 
 
 @inlined
@@ -79,11 +88,11 @@ def note_crowded(obstacles, placed, n_placed, circumradius, inradius):
 
 @inlined
 def lowest_start(
-    obstacles, placed, n_placed, domain, trials, arrangement, law, particle, n_angle, ceiling
+    obstacles, placed, n_placed, domain, trials, arrangement, law, particle, n_angle, ceiling, within
 ):
     """The lowest place below a ceiling that touches two obstacles where all is empty.
 
-    Returns (found, x, y, angle).
+    Returns (found, x, y, angle); see `start_front` for `within`.
     """
     count, circumradius, inradius = particle
     best = False, 0.0, ceiling, 0
@@ -103,6 +112,8 @@ def lowest_start(
                     placed, domain, trials, trial, obstacles.first + o, obstacles.first + p
                 )
                 if not found or y >= best[2]:
+                    continue
+                if within.shape[0] > 0 and not ray_parity(within, 0, within.shape[0], x, y):
                     continue
                 if arrangement is not None and (
                     admitted(arrangement, law, math.inf, RESOLVED, x, y) != RESOLVED
@@ -129,7 +140,7 @@ def empty_front(front, n_placed):
 @inlined
 def start_of_law(
     obstacles, placed, domain, supply, laws, trials, arrangement, queues, counters, n_angle, law,
-    ceiling,
+    ceiling, within,
 ):  # fmt: skip
     """The first of the waiting particles of a law that finds a place to start: (turn, x, y, angle).
 
@@ -151,7 +162,7 @@ def start_of_law(
         particle = turn_and_inflate(supply, source, domain.clearance, trials, n_angle)
         found, x, y, angle = lowest_start(
             obstacles, placed, counters[N_PLACED], domain, trials, arrangement, law, particle,
-            n_angle, ceiling,
+            n_angle, ceiling, within,
         )  # fmt: skip
         if found:
             return turn, x, y, angle
@@ -164,12 +175,12 @@ def start_of_law(
 @kernel
 def start_front(
     obstacles, front, placed, grid, domain, supply, laws, trials, arrangement, queues, counters,
-    n_angle, n_loc, limit,
+    n_angle, n_loc, limit, within,
 ):  # fmt: skip
     """Where the last front has come to its end, begin another one; whether there was a place.
 
     It begins with the first of the waiting particles that finds one; of those of several laws, the
-    lowest.
+    lowest. `within`, (n, 4), are the edges of the polygons that it must begin in, or none.
     """
     if not counters[FINISHED] or counters[N_PLACED] >= limit:
         return False
@@ -180,7 +191,7 @@ def start_front(
         for law in range(queues.last.size):
             turn, x, y, angle = start_of_law(
                 obstacles, placed, domain, supply, laws, trials, arrangement, queues, counters,
-                n_angle, law, lowest,
+                n_angle, law, lowest, within,
             )  # fmt: skip
             if turn >= 0:
                 chosen = law
@@ -188,7 +199,7 @@ def start_front(
     # with several laws once more, as the trials are those of another one by now
     turn, x, y, angle = start_of_law(
         obstacles, placed, domain, supply, laws, trials, arrangement, queues, counters, n_angle,
-        chosen, np.nextafter(lowest, math.inf),
+        chosen, np.nextafter(lowest, math.inf), within,
     )  # fmt: skip
     if turn < 0:
         return False
@@ -208,3 +219,34 @@ def start_front(
     take_from_waiting(queues, chosen, turn)
     begin_turn(front, placed, domain, arrangement, queues, counters, n_loc)
     return True
+
+
+def start_anywhere(state: State, limit: int) -> bool:
+    """Begin another front where the last one did not come; whether there was a place for it.
+
+    Where there is none far from all particles, a front may begin in a room that holds none yet,
+    as near as it likes to those beyond the walls: on the other side of a thin one, say.
+    """
+    obstacles = state.domain.obstacles
+    if _start(state, obstacles, limit, np.empty((0, 4))):
+        return True
+    if state.n_placed in (0, limit) or not state.finished or obstacles.empty_about == 0.0:
+        return False
+    source = state.placed.source[: state.n_placed]
+    x, y = state.placed.disc[: state.n_placed, :2].T
+    whole = state.region.to_shapely()
+    radius = 0.5 * float(state.supply.size[source].mean())
+    rooms = rooms_for_disc(whole, radius)
+    empty = rooms[~holds_a_point(rooms, x, y)]
+    if empty.size == 0:
+        return False
+    nearby = obstacles._replace(empty_about=0.0, rejected=np.zeros_like(obstacles.rejected))
+    return _start(state, nearby, limit, edges_of(shapely.buffer(empty, radius)))
+
+
+def _start(state: State, obstacles: Obstacles, limit: int, within: np.ndarray) -> bool:
+    return start_front(
+        obstacles, state.front, state.placed, state.grid, state.domain, state.supply, state.laws,
+        state.trials, state.arrangement, state.queues, state.counters, state.n_angle, state.n_loc,
+        limit, within,
+    )  # fmt: skip

@@ -8,6 +8,7 @@ import numpy as np
 import shapely
 
 from grainfront.geometry.boxes import bounding_boxes
+from grainfront.geometry.rooms import holds_a_point, rooms_for_disc
 from grainfront.particles import Cell, Packing, Region
 from grainfront.polygons import Polygons
 
@@ -78,13 +79,11 @@ def find_rooms(packing: Packing) -> Rooms:
         whole = map(np.array, ([domain.area], [x], [y], [False]))
         return Rooms(*whole)
     radius = 0.5 * float(packing.size.mean())
-    rooms = shapely.get_parts(shapely.buffer(domain.to_shapely(), -radius))
-    centres = shapely.points(packing.x, packing.y)
-    holds = np.zeros(rooms.size, dtype=np.bool_)
-    holds[shapely.STRtree(rooms).query(centres, predicate="intersects")[1]] = True
+    rooms = rooms_for_disc(domain.to_shapely(), radius)
     inside = shapely.point_on_surface(rooms)
     areas = shapely.area(shapely.buffer(rooms, radius))
-    return Rooms(areas, shapely.get_x(inside), shapely.get_y(inside), ~holds)
+    empty = ~holds_a_point(rooms, packing.x, packing.y)
+    return Rooms(areas, shapely.get_x(inside), shapely.get_y(inside), empty)
 
 
 def _fraction_within_region(packing: Packing, region: Region) -> float:
