@@ -10,7 +10,8 @@ import shapely
 
 def rooms_for_disc(polygon: Any, radius: float) -> np.ndarray:
     """Where the centre of a disc may lie in a shapely polygon: one polygon for each room."""
-    return shapely.get_parts(shapely.buffer(polygon, -radius))
+    rooms = shapely.get_parts(shapely.buffer(polygon, -radius))
+    return rooms[~shapely.is_empty(rooms)]
 
 
 def holds_a_point(rooms: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -22,8 +23,6 @@ def holds_a_point(rooms: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray
 
 def edges_of(polygons: np.ndarray) -> np.ndarray:
     """The ends of all edges of shapely polygons, x, y, x, y, shape (n_edges, 4)."""
-    nodes, ring = shapely.get_coordinates(
-        shapely.get_rings(polygons), return_index=True
-    )
+    nodes, ring = shapely.get_coordinates(shapely.get_rings(polygons), return_index=True)
     edges = np.column_stack([nodes[:-1], nodes[1:]])
     return edges[ring[:-1] == ring[1:]]

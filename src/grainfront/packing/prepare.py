@@ -37,8 +37,8 @@ from grainfront.packing.turns import (
     FINISHED,
     LAST_ORIENTATIONS,
     N_COUNTERS,
+    N_LEFT_OVER,
     N_PLACED,
-    N_TOO_LARGE,
     WAITING_PLACES,
 )
 from grainfront.particles import Packing, Rectangle, Region
@@ -74,16 +74,11 @@ class State(NamedTuple):
             self.keeper.share_out(self.front, self.placed, self.queues, self.supply)
         *arguments, _, _ = self
         advance(*arguments, limit)
-        while self._start_front(limit):
-            advance(*arguments, limit)
+        if self.domain.obstacles is not None:
+            from grainfront.packing.elsewhere import go_on
 
-    def _start_front(self, limit: int) -> bool:
-        """Begin another front where the last one did not come; whether there was a place for it."""
-        if self.domain.obstacles is None:
-            return False
-        from grainfront.packing.starts import start_anywhere
-
-        return start_anywhere(self, limit)
+            while go_on(self, limit):
+                advance(*arguments, limit)
 
     @property
     def n_placed(self) -> int:
@@ -258,7 +253,7 @@ def as_packing(state: State, aspect_ratio: np.ndarray) -> Packing:
         area=polygon_areas(supply.hull_nodes, supply.hull_offsets)[shape] * size**2,
         circumradius=circumradius,
         shape=shape,
-        left_over=int(state.queues.n_waiting.sum() + state.counters[N_TOO_LARGE]),
+        left_over=int(state.queues.n_waiting.sum() + state.counters[N_LEFT_OVER]),
         region=None if state.arrangement is None else _region(state, source),
     )
 

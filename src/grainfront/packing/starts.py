@@ -9,15 +9,11 @@ from __future__ import annotations
 
 import math
 
-from typing import TYPE_CHECKING
-
 import numpy as np
-import shapely
 
-from grainfront.geometry.rooms import edges_of, holds_a_point, rooms_for_disc
 from grainfront.geometry.signed_distance import ray_parity
 from grainfront.jit import inlined, kernel
-from grainfront.packing.advance import store
+from grainfront.packing.advance import GOLDEN_RATIO, store
 from grainfront.packing.arranged import admitted
 from grainfront.packing.obstacles import overlaps_obstacle
 from grainfront.packing.orientations import draw_orientations, turn_and_inflate
@@ -25,6 +21,7 @@ from grainfront.packing.state import LEFT_WALL, RIGHT_WALL, Trial
 from grainfront.packing.trials import RESOLVED, contact_of_pair, overlaps_particle
 from grainfront.packing.turns import (
     EMPTY_ROWS,
+    FAR_AHEAD,
     FINISHED,
     N_PLACED,
     PLACED_IN_ROW,
@@ -33,10 +30,6 @@ from grainfront.packing.turns import (
     draw_next,
     take_from_waiting,
 )
-
-if TYPE_CHECKING:
-    from grainfront.packing.prepare import State
-    from grainfront.packing.state import Obstacles
 
 
 @inlined
@@ -88,7 +81,17 @@ def note_crowded(obstacles, placed, n_placed, circumradius, inradius):
 
 @inlined
 def lowest_start(
-    obstacles, placed, n_placed, domain, trials, arrangement, law, particle, n_angle, ceiling, within
+    obstacles,
+    placed,
+    n_placed,
+    domain,
+    trials,
+    arrangement,
+    law,
+    particle,
+    n_angle,
+    ceiling,
+    within,
 ):
     """The lowest place below a ceiling that touches two obstacles where all is empty.
 
@@ -140,7 +143,7 @@ def empty_front(front, n_placed):
 @inlined
 def start_of_law(
     obstacles, placed, domain, supply, laws, trials, arrangement, queues, counters, n_angle, law,
-    ceiling, within,
+    ceiling, within, attempt,
 ):  # fmt: skip
     """The first of the waiting particles of a law that finds a place to start: (turn, x, y, angle).
 
@@ -158,7 +161,9 @@ def start_of_law(
         if obstacles.rejected[source]:
             turn += 1
             continue
-        draw_orientations(laws, law, trials, n_angle, queues.n_placed[law], supply.uniform[source])
+        offset = (supply.uniform[source] + GOLDEN_RATIO * attempt) % 1.0
+        ahead = FAR_AHEAD if attempt > 0 else 0
+        draw_orientations(laws, law, trials, n_angle, queues.n_placed[law] + ahead, offset)
         particle = turn_and_inflate(supply, source, domain.clearance, trials, n_angle)
         found, x, y, angle = lowest_start(
             obstacles, placed, counters[N_PLACED], domain, trials, arrangement, law, particle,
@@ -175,12 +180,13 @@ def start_of_law(
 @kernel
 def start_front(
     obstacles, front, placed, grid, domain, supply, laws, trials, arrangement, queues, counters,
-    n_angle, n_loc, limit, within,
+    n_angle, n_loc, limit, within, attempt,
 ):  # fmt: skip
     """Where the last front has come to its end, begin another one; whether there was a place.
 
     It begins with the first of the waiting particles that finds one; of those of several laws, the
-    lowest. `within`, (n, 4), are the edges of the polygons that it must begin in, or none.
+    lowest. `within`, (n, 4), are the edges of the polygons that it must begin in, or none. Further
+    attempts are made in other orientations of the laws.
     """
     if not counters[FINISHED] or counters[N_PLACED] >= limit:
         return False
@@ -191,7 +197,7 @@ def start_front(
         for law in range(queues.last.size):
             turn, x, y, angle = start_of_law(
                 obstacles, placed, domain, supply, laws, trials, arrangement, queues, counters,
-                n_angle, law, lowest, within,
+                n_angle, law, lowest, within, attempt,
             )  # fmt: skip
             if turn >= 0:
                 chosen = law
@@ -199,7 +205,7 @@ def start_front(
     # with several laws once more, as the trials are those of another one by now
     turn, x, y, angle = start_of_law(
         obstacles, placed, domain, supply, laws, trials, arrangement, queues, counters, n_angle,
-        chosen, np.nextafter(lowest, math.inf), within,
+        chosen, np.nextafter(lowest, math.inf), within, attempt,
     )  # fmt: skip
     if turn < 0:
         return False
@@ -219,34 +225,3 @@ def start_front(
     take_from_waiting(queues, chosen, turn)
     begin_turn(front, placed, domain, arrangement, queues, counters, n_loc)
     return True
-
-
-def start_anywhere(state: State, limit: int) -> bool:
-    """Begin another front where the last one did not come; whether there was a place for it.
-
-    Where there is none far from all particles, a front may begin in a room that holds none yet,
-    as near as it likes to those beyond the walls: on the other side of a thin one, say.
-    """
-    obstacles = state.domain.obstacles
-    if _start(state, obstacles, limit, np.empty((0, 4))):
-        return True
-    if state.n_placed in (0, limit) or not state.finished or obstacles.empty_about == 0.0:
-        return False
-    source = state.placed.source[: state.n_placed]
-    x, y = state.placed.disc[: state.n_placed, :2].T
-    whole = state.region.to_shapely()
-    radius = 0.5 * float(state.supply.size[source].mean())
-    rooms = rooms_for_disc(whole, radius)
-    empty = rooms[~holds_a_point(rooms, x, y)]
-    if empty.size == 0:
-        return False
-    nearby = obstacles._replace(empty_about=0.0, rejected=np.zeros_like(obstacles.rejected))
-    return _start(state, nearby, limit, edges_of(shapely.buffer(empty, radius)))
-
-
-def _start(state: State, obstacles: Obstacles, limit: int, within: np.ndarray) -> bool:
-    return start_front(
-        obstacles, state.front, state.placed, state.grid, state.domain, state.supply, state.laws,
-        state.trials, state.arrangement, state.queues, state.counters, state.n_angle, state.n_loc,
-        limit, within,
-    )  # fmt: skip

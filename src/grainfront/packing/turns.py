@@ -23,9 +23,10 @@ FAR_AHEAD = 2**30
 MOVES_ON = 4
 
 # What the loop remembers between calls; LAW and TURN: of whose waiting particles it tries which.
-N_PLACED, N_TOO_LARGE, LAW, TURN, REGIONS_TRIED, N_FAILED = range(6)
+N_PLACED, N_LEFT_OVER, LAW, TURN, REGIONS_TRIED, N_FAILED = range(6)
 PLACED_IN_ROW, TOO_HIGH_IN_ROW, FINISHED, EMPTY_ROWS = range(6, 10)
-N_COUNTERS = 12
+IN_VAIN = 12  # beyond what an arrangement remembers
+N_COUNTERS = 13
 
 
 @inlined
@@ -61,6 +62,7 @@ def end_row(front, queues, counters):
             left = True
     if counters[PLACED_IN_ROW] > 0:
         counters[EMPTY_ROWS] = 0
+        counters[IN_VAIN] = 0
     elif not left or not parked_more:
         # once more in orientations that the laws do not lack yet: there may be room in just these;
         # and, unless the domain is full to the top, in all of the laws: others may never fit
@@ -113,7 +115,7 @@ def draw_next(queues, counters, law, supply, narrowest):
     source = queues.drawn[law]
     queues.drawn[law] += 1
     if supply.size[source] > narrowest:
-        counters[N_TOO_LARGE] += 1
+        counters[N_LEFT_OVER] += 1
         return True
     queues.waiting[law, queues.n_waiting[law]] = source
     queues.n_waiting[law] += 1

@@ -7,7 +7,7 @@ import pytest
 import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from shapely import Point, Polygon, box
+from shapely import Point, Polygon, affinity, box
 
 from grainfront.certificate import certify
 from grainfront.errors import InputError
@@ -112,6 +112,28 @@ def test_a_domain_as_narrow_as_a_grain_is_filled(width, height, effort):
     """Most orientations that the law asks for do not fit: the others are taken."""
     packing = pack("hulls", Rectangle(0.0, 0.0, width, height), *effort)
     assert packing.area.sum() > 0.5 * packing.domain.area
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize("effort", [(1, 1), (4, 3), (12, 10)])
+def test_rooms_behind_thin_walls_are_filled(effort):
+    """Particles on the other side of a wall are near, but not in the way."""
+    disc, inner = (Point(10, 10).buffer(radius, quad_segs=12) for radius in (6.0, 5.9))
+    outside = box(0, 0, 20, 20).difference(disc)
+    packing = pack("hulls", Region.of(outside.union(inner)), *effort)
+    shapes = packing.polygons.to_shapely()
+    for room in (inner, outside):
+        assert shapely.area(shapely.intersection(shapes, room)).sum() > 0.6 * room.area
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize("effort", [(1, 1), (4, 3), (12, 10)])
+@pytest.mark.parametrize(("width", "smallest"), [(1.3, 0.8), (0.85, 0.7)])
+def test_a_slanted_shaft_as_narrow_as_its_particles_is_filled(width, smallest, effort):
+    """Its bounding rectangle does not tell which particles are too wide for it."""
+    shaft = Region.of(affinity.rotate(box(0, 0, width, 80), 30))
+    packing = pack("hulls", shaft, *effort, smallest=smallest)
+    assert packing.area.sum() > 0.5 * shaft.area
 
 
 coordinates = st.tuples(st.integers(0, 12), st.integers(0, 12))

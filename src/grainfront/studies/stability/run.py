@@ -150,15 +150,11 @@ def _pack(scene: Scene, database: ShapeDatabase, seed: int) -> tuple[State, Pack
 
 
 def unaccounted(state: State, left_over: int) -> int:
-    """Particles drawn that are not exactly once among those placed, waiting or too wide."""
+    """Particles drawn that are neither placed once nor left over, or left over but not drawn."""
     drawn = int(state.queues.drawn[0])
-    narrowest = min(state.domain.x_max - state.domain.x_min, state.domain_height)
-    too_wide = np.flatnonzero(state.supply.size[:drawn] > narrowest)
-    waiting = state.queues.waiting[0, : state.queues.n_waiting[0]]
-    placed = state.placed.source[: state.n_placed]
-    times = np.bincount(np.concatenate([placed, waiting, too_wide]), minlength=drawn)
-    miscounted = abs(left_over - waiting.size - too_wide.size)
-    return int(np.sum(times[:drawn] != 1) + times[drawn:].sum() + miscounted)
+    times = np.bincount(state.placed.source[: state.n_placed], minlength=drawn)
+    miscounted = abs(left_over - int(np.sum(times[:drawn] == 0)))
+    return int(np.sum(times > 1) + times[drawn:].sum() + miscounted)
 
 
 def _different(packing: Packing, larger: Packing) -> int:

@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+import shapely
 from numpy.typing import ArrayLike
 
 from grainfront.laws import Law
-from grainfront.particles import Rectangle
+from grainfront.particles import Rectangle, Region
 from grainfront.polygons import Polygons
 from grainfront.scene import Scene
 from grainfront.shapes.database import ShapeDatabase, standardised_database
@@ -43,13 +44,14 @@ class Mirrored(Law):
 
 def scaled(scene: Scene, factor: float) -> Scene:
     """The scene with all its lengths multiplied by `factor`."""
-    domain = scene.domain
+    return replace(scene, domain=_scaled(scene.domain, factor), size=Scaled(scene.size, factor))
+
+
+def _scaled(domain: Rectangle, factor: float) -> Rectangle:
+    if isinstance(domain, Region):
+        return Region.of(shapely.transform(domain.to_shapely(), lambda nodes: factor * nodes))
     sides = (domain.x_min, domain.y_min, domain.x_max, domain.y_max)
-    return replace(
-        scene,
-        domain=Rectangle(*(factor * side for side in sides)),
-        size=Scaled(scene.size, factor),
-    )
+    return Rectangle(*(factor * side for side in sides))
 
 
 def mirrored(scene: Scene, database: ShapeDatabase) -> tuple[Scene, ShapeDatabase]:

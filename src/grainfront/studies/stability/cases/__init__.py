@@ -5,13 +5,14 @@ from __future__ import annotations
 from dataclasses import replace
 
 from grainfront.studies.stability.case import MODERATE, Case
-from grainfront.studies.stability.cases import domains, efforts, orientations, shapes, sizes
+from grainfront.studies.stability.cases import domains, efforts, orientations, shapes, sizes, walls
 
 GROUPS = {
     "shapes": shapes.CASES,
     "sizes": sizes.CASES,
     "orientations": orientations.CASES,
     "domains": domains.CASES,
+    "walls": walls.CASES,
     "efforts": efforts.CASES,
 }
 CASES: dict[str, Case] = {MODERATE.name: MODERATE} | {
