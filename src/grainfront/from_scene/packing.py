@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from grainfront.laws import Law
     from grainfront.packing.fraction import Attempts
     from grainfront.packing.pack import RunTime
-    from grainfront.packing.prepare import State
     from grainfront.packing.state import OrientationLaw
+    from grainfront.packing.under_way import State
     from grainfront.particles import Packing
     from grainfront.shapes.database import ShapeDatabase
 

@@ -18,9 +18,11 @@ import numpy as np
 
 from grainfront.jit import compiling
 from grainfront.packing.control import exponents, make_control
+from grainfront.packing.fronts import advance_to
 from grainfront.packing.pack import RunTime
-from grainfront.packing.prepare import State, as_packing
+from grainfront.packing.prepare import as_packing
 from grainfront.packing.steering import MOST_LEAN, Finish, Steering
+from grainfront.packing.under_way import State
 from grainfront.particles import Packing
 
 # Effort to start with where nothing is known: half way. The controller finds another within some
@@ -106,7 +108,7 @@ def make_ready(empty: State, particle_area: np.ndarray) -> None:
     """Compile the kernel, or read it from the cache."""
     nothing = np.random.default_rng(0)
     control = make_control(0.5, 0.0, particle_area, empty.supply, nothing)
-    empty.copy().steered(control, nothing).advance_to(0)
+    advance_to(empty.copy().steered(control, nothing), 0)
 
 
 def _spent(effort: float, denser: bool) -> bool:

@@ -11,7 +11,9 @@ import numpy as np
 from grainfront.geometry.rings import polygon_areas
 from grainfront.jit import compiling
 from grainfront.packing import search_of
-from grainfront.packing.prepare import State, as_packing
+from grainfront.packing.fronts import advance_to
+from grainfront.packing.prepare import as_packing
+from grainfront.packing.under_way import State
 from grainfront.particles import Packing
 
 # Particles are placed in this many calls of the kernel or more, between which progress is told.
@@ -41,7 +43,7 @@ def fill(
     among = "" if empty.domain.obstacles is None else " among obstacles"
     search = search_of(empty.n_angle, empty.n_loc)
     with compiling(f"{arranged}{search} search{among}") as compilation:
-        empty.advance_to(0)
+        advance_to(empty, 0)
     kernel_s = run(empty, empty.supply.size.size, progress)
     return as_packing(empty, aspect_ratio), RunTime(kernel_s, compilation.seconds)
 
@@ -55,7 +57,7 @@ def run(state: State, limit: int, progress: Callable[[int, float], None] | None 
     while state.n_placed < limit and not state.finished:
         first = state.n_placed
         start = time.thread_time()
-        state.advance_to(min(first + step, limit))
+        advance_to(state, min(first + step, limit))
         seconds += time.thread_time() - start
         if progress is not None:
             new = state.placed.source[first : state.n_placed]

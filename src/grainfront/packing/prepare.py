@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -12,118 +11,31 @@ from grainfront.geometry.placing import radii_about_origin
 from grainfront.geometry.regions import REST
 from grainfront.geometry.rings import polygon_areas
 from grainfront.packing import search_of
-from grainfront.packing.advance import advance
 from grainfront.packing.arranged import NO_MEMBER, Arrangement
-from grainfront.packing.control import Control
 from grainfront.packing.front import make_front
 from grainfront.packing.grid import make_grid
-from grainfront.packing.memory import Memory, make_memory
+from grainfront.packing.memory import make_memory
 from grainfront.packing.orientations import orientation_laws
 from grainfront.packing.scout import SCOUT_CORNERS
 from grainfront.packing.state import (
     CLEARANCE_ULPS,
     TOLERANCE_OF_CLEARANCE,
     Domain,
-    Front,
-    Grid,
     OrientationLaw,
-    OrientationLaws,
     Placed,
     Queues,
     Supply,
     Trials,
 )
 from grainfront.packing.turns import (
-    FINISHED,
     LAST_ORIENTATIONS,
     N_COUNTERS,
     N_LEFT_OVER,
-    N_PLACED,
     WAITING_PLACES,
 )
+from grainfront.packing.under_way import State
 from grainfront.particles import Packing, Rectangle, Region
 from grainfront.polygons import Polygons
-
-if TYPE_CHECKING:
-    from grainfront.packing.size_keeper import SizeKeeper
-
-
-class State(NamedTuple):
-    """A packing under way: the arguments of the kernel."""
-
-    front: Front
-    placed: Placed
-    grid: Grid
-    domain: Domain
-    supply: Supply
-    laws: OrientationLaws
-    trials: Trials
-    memory: Memory | None
-    control: Control | None
-    arrangement: Arrangement | None
-    queues: Queues
-    counters: np.ndarray
-    n_angle: int
-    n_loc: int
-    region: Rectangle
-    keeper: SizeKeeper | None = None
-
-    def advance_to(self, limit: int) -> None:
-        """Place particles until there are `limit` of them or the domain is full."""
-        if self.keeper is not None:
-            self.keeper.share_out(self.front, self.placed, self.queues, self.supply)
-        *arguments, _, _ = self
-        advance(*arguments, limit)
-        if self.domain.obstacles is not None:
-            from grainfront.packing.elsewhere import go_on
-
-            while go_on(self, limit):
-                advance(*arguments, limit)
-
-    @property
-    def n_placed(self) -> int:
-        """Particles placed so far."""
-        return int(self.counters[N_PLACED])
-
-    @property
-    def finished(self) -> bool:
-        """Whether the domain is full."""
-        return bool(self.counters[FINISHED])
-
-    @property
-    def domain_height(self) -> float:
-        """Height of the domain."""
-        return self.domain.y_max - self.domain.y_min
-
-    @property
-    def domain_area(self) -> float:
-        """Area of the domain."""
-        return self.region.area
-
-    def copy(self) -> State:
-        """The same packing, to be continued in another way; what does not change is shared."""
-        return self._replace(
-            front=Front(*(array.copy() for array in self.front)),
-            placed=Placed(*(array.copy() for array in self.placed)),
-            grid=Grid(*(array.copy() for array in self.grid)),
-            laws=self.laws._replace(placed=self.laws.placed.copy()),
-            queues=Queues(*(array.copy() for array in self.queues)),
-            supply=self.supply._replace(size=self.supply.size.copy()),
-            counters=self.counters.copy(),
-            keeper=None if self.keeper is None else self.keeper.copy(),
-        )
-
-    def steered(self, control: Control, rng: np.random.Generator) -> State:
-        """The same packing with the effort left to a controller, n_angle and n_loc at most.
-
-        Its particles get other random offsets of their trial orientations, so that it is another
-        packing even where the effort is the same.
-        """
-        return self._replace(
-            control=control,
-            memory=self.memory or make_memory(self.n_angle, self.n_loc),
-            supply=self.supply._replace(uniform=rng.random(self.supply.size.size)),
-        )
 
 
 def prepare(

@@ -59,11 +59,16 @@ def empty_about(obstacles, placed, n_placed, domain, trials, trial, x, y):
 
 
 @inlined
-def note_crowded(obstacles, placed, n_placed, circumradius, inradius):
-    """Note the obstacles beside which no front can begin: one particle is near all along them."""
+def note_crowded(obstacles, placed, n_placed, circumradius, inradius, beside):
+    """Note the obstacles beside which no front can begin: one particle is near all along them.
+
+    Those not `beside` the place where it is to begin are out of question.
+    """
     reach = obstacles.empty_about * circumradius
     for o in range(obstacles.box.shape[0]):
-        obstacles.crowded[o] = False
+        obstacles.crowded[o] = not beside[o]
+        if obstacles.crowded[o]:
+            continue
         x = 0.5 * (obstacles.box[o, 0] + obstacles.box[o, 2])
         y = 0.5 * (obstacles.box[o, 1] + obstacles.box[o, 3])
         half = 0.5 * math.hypot(
@@ -81,25 +86,16 @@ def note_crowded(obstacles, placed, n_placed, circumradius, inradius):
 
 @inlined
 def lowest_start(
-    obstacles,
-    placed,
-    n_placed,
-    domain,
-    trials,
-    arrangement,
-    law,
-    particle,
-    n_angle,
-    ceiling,
-    within,
-):
+    obstacles, placed, n_placed, domain, trials, arrangement, law, particle, n_angle, ceiling,
+    within, beside,
+):  # fmt: skip
     """The lowest place below a ceiling that touches two obstacles where all is empty.
 
-    Returns (found, x, y, angle); see `start_front` for `within`.
+    Returns (found, x, y, angle); see `start_front` for `within` and `beside`.
     """
     count, circumradius, inradius = particle
     best = False, 0.0, ceiling, 0
-    note_crowded(obstacles, placed, n_placed, circumradius, inradius)
+    note_crowded(obstacles, placed, n_placed, circumradius, inradius, beside)
     for o in range(obstacles.box.shape[0]):
         if obstacles.crowded[o]:
             continue
@@ -143,7 +139,7 @@ def empty_front(front, n_placed):
 @inlined
 def start_of_law(
     obstacles, placed, domain, supply, laws, trials, arrangement, queues, counters, n_angle, law,
-    ceiling, within, attempt,
+    ceiling, within, beside, attempt,
 ):  # fmt: skip
     """The first of the waiting particles of a law that finds a place to start: (turn, x, y, angle).
 
@@ -167,7 +163,7 @@ def start_of_law(
         particle = turn_and_inflate(supply, source, domain.clearance, trials, n_angle)
         found, x, y, angle = lowest_start(
             obstacles, placed, counters[N_PLACED], domain, trials, arrangement, law, particle,
-            n_angle, ceiling, within,
+            n_angle, ceiling, within, beside,
         )  # fmt: skip
         if found:
             return turn, x, y, angle
@@ -180,13 +176,14 @@ def start_of_law(
 @kernel
 def start_front(
     obstacles, front, placed, grid, domain, supply, laws, trials, arrangement, queues, counters,
-    n_angle, n_loc, limit, within, attempt,
+    n_angle, n_loc, limit, within, beside, attempt,
 ):  # fmt: skip
     """Where the last front has come to its end, begin another one; whether there was a place.
 
     It begins with the first of the waiting particles that finds one; of those of several laws, the
-    lowest. `within`, (n, 4), are the edges of the polygons that it must begin in, or none. Further
-    attempts are made in other orientations of the laws.
+    lowest. `within`, (n, 4), are the edges of the polygon that it must begin in, or none; `beside`,
+    (n_obstacles,), tells which of the obstacles it may touch. Further attempts are made in other
+    orientations of the laws.
     """
     if not counters[FINISHED] or counters[N_PLACED] >= limit:
         return False
@@ -197,7 +194,7 @@ def start_front(
         for law in range(queues.last.size):
             turn, x, y, angle = start_of_law(
                 obstacles, placed, domain, supply, laws, trials, arrangement, queues, counters,
-                n_angle, law, lowest, within, attempt,
+                n_angle, law, lowest, within, beside, attempt,
             )  # fmt: skip
             if turn >= 0:
                 chosen = law
@@ -205,7 +202,7 @@ def start_front(
     # with several laws once more, as the trials are those of another one by now
     turn, x, y, angle = start_of_law(
         obstacles, placed, domain, supply, laws, trials, arrangement, queues, counters, n_angle,
-        chosen, np.nextafter(lowest, math.inf), within, attempt,
+        chosen, np.nextafter(lowest, math.inf), within, beside, attempt,
     )  # fmt: skip
     if turn < 0:
         return False

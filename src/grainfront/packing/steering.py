@@ -18,7 +18,7 @@ from grainfront.packing.control import (
     make_control,
 )
 from grainfront.packing.pack import run
-from grainfront.packing.prepare import State
+from grainfront.packing.under_way import State
 
 # Share of the domain that a finish fills: enough for the aim to make up for the top, and little
 # enough for many finishes to cost less than another packing. At least some rows, as high as the

@@ -15,6 +15,7 @@ from grainfront.arrangement.regions import Arrangement, GradedAlong, LocalLaws, 
 from grainfront.arrangement.zones import Bars, Box, Circle, HalfPlane, Moved, Polygon, Union
 from grainfront.from_scene.packing import _empty
 from grainfront.laws import Constant, Lognormal, Normal, Uniform
+from grainfront.packing.fronts import advance_to
 from grainfront.particles import Rectangle
 from grainfront.scene import PackingEffort, Scene, Target
 from grainfront.shapes.sources import RandomConvexPolygons
@@ -120,7 +121,7 @@ def test_the_pruned_search_hardly_ever_misses_what_exhaustive_search_chooses(law
         exhaustive = state.copy()._replace(memory=None)
         n = state.n_placed
         for one in (state, exhaustive):
-            one.advance_to(n + 1)
+            advance_to(one, n + 1)
         y, lowest = (one.placed.disc[n, 1] for one in (state, exhaustive))
         if state.n_placed == exhaustive.n_placed == n + 1 and y != lowest:
             missed += 1

@@ -8,6 +8,7 @@ import shapely
 
 from grainfront.packing.control import EFFORT_SUM, ENCLOSED, SOLID, make_control
 from grainfront.packing.front import front_length, member_at
+from grainfront.packing.fronts import advance_to
 from grainfront.packing.orientations import orientation_law
 from grainfront.packing.prepare import prepare
 from grainfront.packing.state import BOTTOM_WALL, LEFT_WALL, RIGHT_WALL
@@ -36,7 +37,7 @@ def steered(corners, particles, seed, aim=0.75, smallest=0.5, length=1.0):
     )
     control = make_control(aim, 0.5, np.ones(1), empty.supply, rng)
     state = empty.steered(control, rng)
-    state.advance_to(particles)
+    advance_to(state, particles)
     assert state.n_placed == particles or state.finished
     return state
 

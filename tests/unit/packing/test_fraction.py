@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from grainfront.packing.control import exponents
 from grainfront.packing.fraction import AT_END, effort_from_map, pack_to_fraction
+from grainfront.packing.fronts import advance_to
 from grainfront.packing.orientations import orientation_law
 from grainfront.packing.pack import fill
 from grainfront.packing.prepare import prepare
@@ -89,7 +90,7 @@ def test_out_of_reach_is_told_after_one_start(target):
 def test_finishes_continue_the_shared_part():
     started = empty(1.5, 3)
     whole = fill(empty(1.5, 3), np.array([1.5]))[0]
-    started.advance_to(100)
+    advance_to(started, 100)
     assert np.array_equal(started.placed.disc[:100, 0], whole.x[:100])
     finished = fill(started.copy(), np.array([1.5]))[0]
     assert np.array_equal(finished.x, whole.x)

@@ -13,6 +13,7 @@ from grainfront.geometry.placing import place_polygon
 from grainfront.geometry.rings import polygon_areas
 from grainfront.jit import kernel
 from grainfront.packing.front import front_length, member_at, position_of
+from grainfront.packing.fronts import advance_to
 from grainfront.packing.orientations import orientation_law
 from grainfront.packing.pack import fill
 from grainfront.packing.prepare import prepare
@@ -211,7 +212,7 @@ def test_the_front_keeps_its_members_and_their_slots_in_step():
         square_domain(12.0), 6, 5, rng,
     )  # fmt: skip
     for limit in range(0, 60, 3):
-        state.advance_to(limit)
+        advance_to(state, limit)
         front = state.front
         members = np.concatenate(
             [front.member[: front.ends[0]], front.member[front.ends[1] :]]

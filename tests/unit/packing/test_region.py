@@ -12,6 +12,7 @@ from shapely import Point, Polygon, affinity, box
 from grainfront.certificate import certify
 from grainfront.errors import InputError
 from grainfront.geometry.rings import polygon_areas
+from grainfront.packing.fronts import advance_to
 from grainfront.packing.orientations import orientation_law
 from grainfront.packing.pack import fill
 from grainfront.packing.prepare import prepare
@@ -88,8 +89,8 @@ def test_nearly_every_choice_is_that_of_exhaustive_search(family, name):
     while not exhaustive.finished:
         number = exhaustive.n_placed + 1
         choice = exhaustive.copy()._replace(memory=pruned.memory)
-        choice.advance_to(number)
-        exhaustive.advance_to(number)
+        advance_to(choice, number)
+        advance_to(exhaustive, number)
         discs = [state.placed.disc[: state.n_placed] for state in (choice, exhaustive)]
         others += not np.array_equal(*discs)
     assert exhaustive.n_placed > 100

@@ -9,6 +9,7 @@ import pytest
 
 from grainfront.geometry.rings import polygon_areas
 from grainfront.packing import PRUNED_FROM_N_LOC, search_of
+from grainfront.packing.fronts import advance_to
 from grainfront.packing.orientations import orientation_law
 from grainfront.packing.prepare import prepare
 from grainfront.packing.turns import N_PLACED
@@ -60,7 +61,7 @@ def assert_same_choices(side, *arguments):
     exhaustive = prepare_family(*arguments[:1], side, *arguments[1:])._replace(memory=None)
     assert optimised.memory is not None
     for state in (optimised, exhaustive):
-        state.advance_to(2**62)
+        advance_to(state, 2**62)
     n, same = (int(state.counters[N_PLACED]) for state in (optimised, exhaustive))
     assert n == same
     for one, other in zip(optimised.placed, exhaustive.placed, strict=True):

@@ -15,8 +15,8 @@ import numpy as np
 from grainfront import api
 from grainfront.errors import InputError
 from grainfront.packing.pack import fill
-from grainfront.packing.prepare import State
 from grainfront.packing.turns import N_FAILED
+from grainfront.packing.under_way import State
 from grainfront.particles import Packing
 from grainfront.scene import Scene
 from grainfront.shapes.database import ShapeDatabase
