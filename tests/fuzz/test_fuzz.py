@@ -12,6 +12,7 @@ import pytest
 import shapely
 from hypothesis import HealthCheck, given, settings
 
+from grainfront.packing import elsewhere
 from grainfront.particles import Packing, Region
 from grainfront.polygons import Polygons
 from grainfront.statistics.fractions import volume_fraction_between
@@ -19,6 +20,8 @@ from grainfront.statistics.fractions import volume_fraction_between
 sys.path.insert(0, str(Path(__file__).parent))
 from damage import DOMAINS, IMAGES, KINDS, OUTLINES, RESULTS, check_file, damaged_files, whole
 from scenes import check_scene, scenes
+
+SQUARE = [[0, 0], [3, 0], [3, 3], [0, 3]]
 
 # Sequences are the same in each run, so that a failure is found again.
 SHORT = settings(
@@ -147,3 +150,26 @@ def test_a_truncated_law_without_a_maximum():
     law = {"normal": {"mean": 1, "standard_deviation": 0.49, "minimum": 0.2}}
     region = {"inside": {"circle": {"centre": [3, 3], "radius": 1}}, "size": {"constant": 0.6}}
     assert check_scene(SMALL | {"size": law, "arrangement": {"regions": [region]}}) == "packed"
+
+
+def test_an_island_of_many_edges_that_no_grain_fits(monkeypatch):
+    """Found by fuzzing: twenty searches among all pairs of its edges, which took two minutes."""
+    tried, start = [], elsewhere._start
+
+    def counted(state, obstacles, limit, room, *attempt):
+        tried.append(room)
+        return start(state, obstacles, limit, room, *attempt)
+
+    monkeypatch.setattr(elsewhere, "_start", counted)
+    angle = np.arange(128) * np.pi / 64
+    disc = 0.55 * np.column_stack([np.cos(angle), np.sin(angle)]) + [3.6, 1.0]
+    islands = [{"polygon": {"nodes": nodes}} for nodes in (SQUARE, disc.tolist())]
+    scene = {
+        "domain": {"inside": {"union": islands}},
+        "shapes": {"family": {"rectangle": {"aspect_ratio": [2, 2], "count": 1}}},
+        "size": {"constant": 0.9},
+        "packing": {"n_angle": 20, "n_loc": 1, "n_bin": 1},
+    }
+    assert check_scene(SMALL | scene) == "packed"
+    on_island = [room for room in tried if room.polygon is not None]
+    assert len(on_island) == 3  # once in each packing that the check makes
