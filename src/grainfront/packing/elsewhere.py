@@ -44,15 +44,18 @@ def other_fronts(state: State, obstacles: Obstacles, limit: int) -> Iterator[Non
     as near as they like to those behind a wall. In a domain that is not half full, the last front
     goes on with others than the waiting particles.
     """
-    while _start(state, obstacles, limit, Room.anywhere(obstacles)):
+    anywhere = Room(None, np.empty((0, 4)), np.ones(len(obstacles.box), dtype=np.bool_))
+    yield from _fronts_far_off(state, obstacles, limit, anywhere)
+    only_hollows = obstacles.empty_about == 0.0
+    if only_hollows:
+        return
+    if state.n_placed == 0 and _start_nearby(state, obstacles, limit, anywhere):
         yield
-    if obstacles.empty_about == 0.0 or not state.finished:
-        return  # hollows only, or the limit
+        yield from _fronts_far_off(state, obstacles, limit, anywhere)
     for room in _empty_rooms(state, obstacles):
         if state.finished and room.is_empty(state) and _start_nearby(state, obstacles, limit, room):
             yield
-            while _start(state, obstacles, limit, Room.anywhere(obstacles)):
-                yield
+            yield from _fronts_far_off(state, obstacles, limit, anywhere)
     while state.finished and _resume_with_others(state):
         yield
 
@@ -60,14 +63,9 @@ def other_fronts(state: State, obstacles: Obstacles, limit: int) -> Iterator[Non
 class Room(NamedTuple):
     """Where a front may begin: in a polygon and touching any of the obstacles beside it."""
 
-    polygon: Any
-    edges: np.ndarray  # (n, 4), or none where it is all of the domain
+    polygon: Any  # or None: all of the domain
+    edges: np.ndarray  # (n, 4), its own, or none
     beside: np.ndarray  # (n_obstacles,)
-
-    @classmethod
-    def anywhere(cls, obstacles: Obstacles) -> Room:
-        """All of the domain."""
-        return cls(None, np.empty((0, 4)), np.ones(len(obstacles.box), dtype=np.bool_))
 
     @classmethod
     def of(cls, polygon: Any, obstacles: Obstacles, reach: float) -> Room:
@@ -80,10 +78,15 @@ class Room(NamedTuple):
 
     def is_empty(self, state: State) -> bool:
         """Whether no particle has its centre there."""
-        if self.polygon is None:
-            return state.n_placed == 0
         x, y, _, _ = state.placed.disc[: state.n_placed].T
         return not holds_a_point(np.array([self.polygon]), x, y)[0]
+
+
+def _fronts_far_off(
+    state: State, obstacles: Obstacles, limit: int, anywhere: Room
+) -> Iterator[None]:
+    while _start(state, obstacles, limit, anywhere):
+        yield
 
 
 def _start(state: State, obstacles: Obstacles, limit: int, room: Room, attempt: int = 0) -> bool:
@@ -96,8 +99,8 @@ def _start(state: State, obstacles: Obstacles, limit: int, room: Room, attempt: 
 
 def _empty_rooms(state: State, obstacles: Obstacles) -> list[Room]:
     """Those of the rooms for discs of the mean size so far that hold no particle."""
-    if state.n_placed == 0:
-        return [Room.anywhere(obstacles)]
+    if state.n_placed == 0 or not state.finished:
+        return []
     assert isinstance(state.region, Region), "a rectangle is one room"
     supply = state.supply
     radius = 0.5 * float(supply.size[state.placed.source[: state.n_placed]].mean())
