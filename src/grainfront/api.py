@@ -205,6 +205,23 @@ def warn_of_empty_rooms(name: str | Path, packing: Packing) -> None:
     )
 
 
+def warn_of_much_left_over(name: str | Path, packing: Packing) -> None:
+    """Say on standard error that a domain is not half full, as its grains are too wide for it."""
+    if not isinstance(packing.domain, Region):
+        return
+    from grainfront.packing.elsewhere import LEAST_FILLED
+    from grainfront.packing.turns import WAITING_PLACES
+
+    filled = packing.area.sum() / packing.domain.area
+    if filled < LEAST_FILLED and packing.left_over > WAITING_PLACES:
+        print(
+            f"grainfront: warning: {name}: only {100 * filled:.2g} % of the domain is filled: "
+            f"{packing.left_over} of {packing.left_over + packing.x.size} grains drawn found no "
+            "place, as its parts are hardly wider than they are.",
+            file=sys.stderr,
+        )
+
+
 def warn_of_empty_regions(name: str | Path, scene: Scene, packing: Packing) -> None:
     """Say on standard error which regions of an arrangement got no particle."""
     if scene.arrangement is None or packing.region is None:

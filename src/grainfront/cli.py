@@ -146,6 +146,7 @@ def _pack(options: argparse.Namespace) -> None:
         packing, run_time = api.pack(scene, database, seed, progress)
     api.require_certificate(options.output, packing)
     api.warn_of_empty_rooms(options.output, packing)
+    api.warn_of_much_left_over(options.output, packing)
     api.warn_of_empty_regions(options.output, scene, packing)
     api.write_packing(options.output, packing, scene, seed)
 

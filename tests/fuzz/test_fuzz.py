@@ -171,5 +171,5 @@ def test_an_island_of_many_edges_that_no_grain_fits(monkeypatch):
         "packing": {"n_angle": 20, "n_loc": 1, "n_bin": 1},
     }
     assert check_scene(SMALL | scene) == "packed"
-    on_island = [room for room in tried if room.polygon is not None]
-    assert len(on_island) == 3  # once in each packing that the check makes
+    on_island = [room for room in tried if room.edges.size]
+    assert len(on_island) <= 3 * 4  # in three packings, for four sets of particles each

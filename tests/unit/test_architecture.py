@@ -82,7 +82,7 @@ LIBRARIES = {
         "geometry.pieces",
         "geometry.rooms",
         "packing.region",
-        "packing.elsewhere",
+        "packing.rooms",
         "packing.periodic",
         "shapes",
         "statistics",

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from grainfront.geometry.rings import polygon_areas
 from grainfront.packing.arranged import Arrangement
 from grainfront.packing.control import Control
 from grainfront.packing.memory import Memory, make_memory
@@ -65,6 +66,12 @@ class State(NamedTuple):
     def domain_area(self) -> float:
         """Area of the domain."""
         return self.region.area
+
+    def areas(self, particles: slice) -> np.ndarray:
+        """Hull areas of some of the particles, by order of placement."""
+        source = self.placed.source[particles]
+        areas = polygon_areas(self.supply.hull_nodes, self.supply.hull_offsets)
+        return areas[self.supply.shape[source]] * self.supply.size[source] ** 2
 
     def copy(self) -> State:
         """The same packing, to be continued in another way; what does not change is shared."""

@@ -44,6 +44,7 @@ def statistics(
         packing = netcdf.read_packing(path)
         certificates.append(api.require_certificate(path, packing))
         api.warn_of_empty_rooms(path, packing)
+        api.warn_of_much_left_over(path, packing)
         api.warn_of_empty_regions(path, loaded, packing)
         measured.append(api.measure(loaded, built, packing))
     write_statistics(

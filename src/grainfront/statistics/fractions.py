@@ -8,7 +8,7 @@ import numpy as np
 import shapely
 
 from grainfront.geometry.boxes import bounding_boxes
-from grainfront.geometry.rooms import holds_a_point, rooms_for_disc
+from grainfront.geometry.rooms import Occupancy, rooms_for_disc
 from grainfront.particles import Cell, Packing, Region
 from grainfront.polygons import Polygons
 
@@ -80,10 +80,11 @@ def find_rooms(packing: Packing) -> Rooms:
         return Rooms(*whole)
     radius = 0.5 * float(packing.size.mean())
     rooms = rooms_for_disc(domain.to_shapely(), radius)
+    occupancy = Occupancy(rooms)
+    occupancy.add(packing.x, packing.y)
     inside = shapely.point_on_surface(rooms)
-    areas = shapely.area(shapely.buffer(rooms, radius))
-    empty = ~holds_a_point(rooms, packing.x, packing.y)
-    return Rooms(areas, shapely.get_x(inside), shapely.get_y(inside), empty)
+    x, y = shapely.get_x(inside), shapely.get_y(inside)
+    return Rooms(shapely.area(rooms), x, y, occupancy.particles == 0)
 
 
 def _fraction_within_region(packing: Packing, region: Region) -> float:

@@ -128,6 +128,20 @@ def test_rooms_behind_thin_walls_are_filled(effort):
 
 
 @pytest.mark.compiled
+@pytest.mark.parametrize("neck", [0.3, 0.8, 1.0])
+def test_shafts_joined_by_necks_about_as_wide_as_particles_are_filled(neck):
+    """Whether a front gets through a neck is up to chance."""
+    shafts = [box(3.1 * n, 0, 3.1 * n + 3, 15) for n in range(5)]
+    necks = [
+        box(3.1 * n - 0.2, y, 3.1 * n, y + neck) for n, y in ((1, 0), (2, 14), (3, 0), (4, 14))
+    ]
+    packing = pack("rectangles", Region.of(shapely.union_all(shafts + necks)), 4, 3, smallest=0.7)
+    shapes = packing.polygons.to_shapely()
+    for shaft in shafts:
+        assert shapely.area(shapely.intersection(shapes, shaft)).sum() > 0.5 * shaft.area
+
+
+@pytest.mark.compiled
 @pytest.mark.parametrize("effort", [(1, 1), (4, 3), (12, 10)])
 @pytest.mark.parametrize(("width", "smallest"), [(1.3, 0.8), (0.85, 0.7)])
 def test_a_slanted_shaft_as_narrow_as_its_particles_is_filled(width, smallest, effort):

@@ -176,6 +176,20 @@ def test_a_room_that_stays_empty_is_told(tmp_path, capsys):
     assert "about (11, 5" in told
 
 
+def test_a_domain_that_few_grains_fit_is_told(tmp_path, capsys):
+    cells = [shapely.box(x, y, x + 1.2, y + 1.2) for x in (0, 1.3, 2.6) for y in (0, 1.3, 2.6)]
+    (tmp_path / "cells.wkt").write_text(shapely.union_all(cells).wkt)
+    scene = load(tmp_path, (PLAIN, "domain: {inside: {file: {path: cells.wkt}}}"))
+    packing, _ = api.pack(scene, api.build_shapes(scene), 1)
+    api.warn_of_much_left_over("packing.nc", packing)
+    drawn = packing.x.size + packing.left_over
+    told = f"{packing.left_over} of {drawn} grains drawn found no place"
+    assert packing.left_over > 8 and told in capsys.readouterr().err
+    packed = dataclasses.replace(packing, left_over=8)
+    api.warn_of_much_left_over("packing.nc", packed)
+    assert capsys.readouterr().err == ""
+
+
 def test_a_region_that_stays_empty_is_told(tmp_path, capsys):
     narrow = "{inside: {circle: {centre: [14, 0.4], radius: 0.5}}, size: {constant: 3}}"
     wide = "{inside: {circle: {centre: [5, 5], radius: 3}}, size: {constant: 0.7}}"
