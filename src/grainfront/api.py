@@ -19,7 +19,7 @@ from grainfront.from_scene.packing import pack as pack
 from grainfront.from_scene.packing import pack_to_target as pack_to_target
 from grainfront.from_scene.packing import shape_coverage as shape_coverage
 from grainfront.from_scene.statistics import measure as measure
-from grainfront.particles import Cell, Region
+from grainfront.particles import LEAST_FILLED, Cell, Region
 from grainfront.scene import Scene
 from grainfront.scene import load_scene as load_scene
 from grainfront.shapes.sources import BinaryMasks, LabelMasks, Photographs, ShapeSource
@@ -206,18 +206,15 @@ def warn_of_empty_rooms(name: str | Path, packing: Packing) -> None:
 
 
 def warn_of_much_left_over(name: str | Path, packing: Packing) -> None:
-    """Say on standard error that a domain is not half full, as its grains are too wide for it."""
+    """Say on standard error how many grains found no place in a domain that is not half full."""
     if not isinstance(packing.domain, Region):
         return
-    from grainfront.packing.elsewhere import LEAST_FILLED
-    from grainfront.packing.turns import WAITING_PLACES
-
     filled = packing.area.sum() / packing.domain.area
-    if filled < LEAST_FILLED and packing.left_over > WAITING_PLACES:
+    if filled < LEAST_FILLED:
         print(
             f"grainfront: warning: {name}: only {100 * filled:.2g} % of the domain is filled: "
             f"{packing.left_over} of {packing.left_over + packing.x.size} grains drawn found no "
-            "place, as its parts are hardly wider than they are.",
+            "place in what is left.",
             file=sys.stderr,
         )
 

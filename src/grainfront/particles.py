@@ -22,6 +22,12 @@ Far above the gaps that packing leaves on purpose against rounding (about 1e-14 
 below the distance of neighbours that do not touch.
 """
 
+LEAST_FILLED = 0.5
+"""A domain of any shape that is filled less has room, but not for any of the waiting particles.
+
+Other packings of hulls fill more, but for slivers.
+"""
+
 
 @dataclass(frozen=True)
 class Rectangle:

@@ -17,14 +17,12 @@ from grainfront.packing.turns import (
     LAST_ORIENTATIONS,
     N_LEFT_OVER,
 )
+from grainfront.particles import LEAST_FILLED
 
 if TYPE_CHECKING:
     from grainfront.packing.state import Obstacles
     from grainfront.packing.under_way import State
 
-# A domain that is filled less than this has room, but not for any of the waiting particles: other
-# packings of hulls fill more, but for slivers. Above it, others would only bend the size law.
-LEAST_FILLED = 0.5
 # So many times in a row others are drawn in vain. Of four times eight particles none found a place:
 # hardly one in ten does.
 MOST_IN_VAIN = 3
@@ -35,7 +33,7 @@ def other_fronts(state: State, obstacles: Obstacles, limit: int) -> Iterator[Non
 
     Fronts begin far from all particles; where no such place is left, in rooms that are empty, as
     near as they like to particles behind a wall. In a domain that is not half full, the last front
-    goes on with others than the waiting particles.
+    goes on with others than the waiting particles; above that, others would bend the size law.
     """
     yield from _far_from_all(state, obstacles, limit)
     only_hollows = obstacles.empty_about == 0.0

@@ -9,6 +9,7 @@ import numpy as np
 import shapely
 
 from grainfront.geometry.rooms import Occupancy, edges_of, rooms_for_disc
+from grainfront.packing.turns import WAITING_PLACES
 from grainfront.particles import Region
 from grainfront.polygons import Polygons
 
@@ -16,9 +17,12 @@ if TYPE_CHECKING:
     from grainfront.packing.state import Obstacles
     from grainfront.packing.under_way import State
 
-# Contacts tried in a room, some hundredths of a second, after which the waiting particles are taken
-# not to fit.
-MOST_CONTACTS = 100_000
+# Contacts tried in a room for each particle, some hundredths of a second, after which it is taken
+# not to fit; there are others.
+MOST_CONTACTS = 50_000
+
+
+UNLIMITED = 2**62
 
 
 class Room(NamedTuple):
@@ -27,12 +31,13 @@ class Room(NamedTuple):
     edges: np.ndarray  # (n, 4), those of the polygon; none: all of the domain
     beside: np.ndarray  # (n_obstacles,)
     contacts: np.ndarray  # (1,) tried so far
+    most: int  # tried for each particle
 
 
 def anywhere(obstacles: Obstacles) -> Room:
     """All of the domain."""
     beside = np.ones(len(obstacles.box), dtype=np.bool_)
-    return Room(np.empty((0, 4)), beside, np.zeros(1, dtype=np.int64))
+    return Room(np.empty((0, 4)), beside, np.zeros(1, dtype=np.int64), UNLIMITED)
 
 
 class EmptyRooms:
@@ -63,7 +68,8 @@ class EmptyRooms:
             for n, polygon in enumerate(found[new]):
                 beside = np.zeros(len(obstacles.box), dtype=np.bool_)
                 beside[wall[room == n]] = True
-                self._rooms.append(Room(edges_of(polygon), beside, np.zeros(1, dtype=np.int64)))
+                none_tried = np.zeros(1, dtype=np.int64)
+                self._rooms.append(Room(edges_of(polygon), beside, none_tried, MOST_CONTACTS))
         self._state = state
         self._occupancy = Occupancy(np.array(polygons))
         self._told = 0
@@ -71,7 +77,7 @@ class EmptyRooms:
     def __iter__(self) -> Iterator[Room]:
         """The empty rooms that the waiting particles may fit."""
         for n, room in enumerate(self._rooms):
-            if room.contacts[0] < MOST_CONTACTS and self._empty()[n]:
+            if room.contacts[0] < MOST_CONTACTS * WAITING_PLACES and self._empty()[n]:
                 yield room
 
     def _empty(self) -> np.ndarray:

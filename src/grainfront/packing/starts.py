@@ -87,14 +87,15 @@ def note_crowded(obstacles, placed, n_placed, circumradius, inradius, beside):
 @inlined
 def lowest_start(
     obstacles, placed, n_placed, domain, trials, arrangement, law, particle, n_angle, ceiling,
-    within, beside, contacts,
+    within, beside, contacts, most,
 ):  # fmt: skip
     """The lowest place below a ceiling that touches two obstacles where all is empty.
 
-    Returns (found, x, y, angle); see `start_front` for the last three.
+    Returns (found, x, y, angle); see `start_front` for the last four.
     """
     count, circumradius, inradius = particle
     best = False, 0.0, ceiling, 0
+    last = contacts[0] + most
     note_crowded(obstacles, placed, n_placed, circumradius, inradius, beside)
     for o in range(obstacles.box.shape[0]):
         if obstacles.crowded[o]:
@@ -105,6 +106,8 @@ def lowest_start(
                 continue
             if not may_touch_both(obstacles.box, o, p, circumradius, best[2]):
                 continue
+            if contacts[0] >= last:
+                return best
             for angle in range(n_angle):
                 contacts[0] += 1
                 trial = Trial(angle * count, count, angle, circumradius, inradius)
@@ -140,7 +143,7 @@ def empty_front(front, n_placed):
 @inlined
 def start_of_law(
     obstacles, placed, domain, supply, laws, trials, arrangement, queues, counters, n_angle, law,
-    ceiling, within, beside, contacts, attempt,
+    ceiling, within, beside, contacts, most, attempt,
 ):  # fmt: skip
     """The first of the waiting particles of a law that finds a place to start: (turn, x, y, angle).
 
@@ -164,7 +167,7 @@ def start_of_law(
         particle = turn_and_inflate(supply, source, domain.clearance, trials, n_angle)
         found, x, y, angle = lowest_start(
             obstacles, placed, counters[N_PLACED], domain, trials, arrangement, law, particle,
-            n_angle, ceiling, within, beside, contacts,
+            n_angle, ceiling, within, beside, contacts, most,
         )  # fmt: skip
         if found:
             return turn, x, y, angle
@@ -177,13 +180,14 @@ def start_of_law(
 @kernel
 def start_front(
     obstacles, front, placed, grid, domain, supply, laws, trials, arrangement, queues, counters,
-    n_angle, n_loc, limit, within, beside, contacts, attempt,
+    n_angle, n_loc, limit, within, beside, contacts, most, attempt,
 ):  # fmt: skip
     """Where the last front has come to its end, begin another one; whether there was a place.
 
     It begins with the first of the waiting particles that finds one; of those of several laws, the
     lowest. `within`, (n, 4), are the edges of the polygon that it must begin in, or none; `beside`,
-    (n_obstacles,), tells which of the obstacles it may touch; `contacts`, (1,), counts those tried.
+    (n_obstacles,), tells which of the obstacles it may touch; `contacts`, (1,), counts those tried,
+    about `most` for each particle.
     Further attempts are made in other orientations of the laws.
     """
     if not counters[FINISHED] or counters[N_PLACED] >= limit:
@@ -195,7 +199,7 @@ def start_front(
         for law in range(queues.last.size):
             turn, x, y, angle = start_of_law(
                 obstacles, placed, domain, supply, laws, trials, arrangement, queues, counters,
-                n_angle, law, lowest, within, beside, contacts, attempt,
+                n_angle, law, lowest, within, beside, contacts, most, attempt,
             )  # fmt: skip
             if turn >= 0:
                 chosen = law
@@ -203,7 +207,7 @@ def start_front(
     # with several laws once more, as the trials are those of another one by now
     turn, x, y, angle = start_of_law(
         obstacles, placed, domain, supply, laws, trials, arrangement, queues, counters, n_angle,
-        chosen, np.nextafter(lowest, math.inf), within, beside, contacts, attempt,
+        chosen, np.nextafter(lowest, math.inf), within, beside, contacts, most, attempt,
     )  # fmt: skip
     if turn < 0:
         return False
