@@ -43,7 +43,7 @@ def stability(found: Quantities) -> Figure:
     shown = (found["relative_fraction"], found["growth"], worst)
     titles = ("volume fraction", "kernel time a particle", "E2")
     labels = ("over the moderate case's", "over the moderate case's",
-              "the larger of S and α, over its noise level")  # fmt: skip
+              "the larger of S and α,\nover its noise level")  # fmt: skip
     for axes, values, letter, title, label in zip(
         panels, shown, "abc", titles, labels, strict=True
     ):
