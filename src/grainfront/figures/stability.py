@@ -32,7 +32,7 @@ RATIO_COLOURS = (INK, BRANCH, ACCENT, PRESCRIBED)
 def stability(found: Quantities) -> Figure:
     """Volume fraction, time and E2 of every case beside those of the moderate one."""
     cases = list(dict.fromkeys(found["case"]))
-    figure = Figure(figsize=(WIDTH, LINE * len(cases) + 22 * MM))
+    figure = Figure(figsize=(WIDTH, LINE * len(cases) + 28 * MM))
     panels = figure.subplots(1, 3, sharey=True)
     place = -np.array([cases.index(name) for name in found["case"]], dtype=float)
     plain = (found["n_angle"] == 1) & (found["n_loc"] == 1)
