@@ -76,6 +76,10 @@ def pack(family, domain, n_angle, n_loc, seed=0, smallest=0.5):
     return fill(empty, np.ones(hulls.count))[0]
 
 
+# Share of the choices; 0, 4 of 721 and 1 of 317 were seen, at most.
+MOST_OTHERS = {"rectangles": 0.0, "triangles": 0.006, "hulls": 0.005}
+
+
 @pytest.mark.compiled
 @pytest.mark.parametrize("family", FAMILIES)
 @pytest.mark.parametrize("name", DOMAINS)
@@ -94,7 +98,7 @@ def test_nearly_every_choice_is_that_of_exhaustive_search(family, name):
         discs = [state.placed.disc[: state.n_placed] for state in (choice, exhaustive)]
         others += not np.array_equal(*discs)
     assert exhaustive.n_placed > 100
-    assert others <= (0 if family == "rectangles" else 0.006 * exhaustive.n_placed)
+    assert others <= MOST_OTHERS[family] * exhaustive.n_placed
 
 
 @pytest.mark.compiled

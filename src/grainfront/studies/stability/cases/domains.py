@@ -49,7 +49,7 @@ NUMBERS = [
         size=Constant(1.0),
         domain=square(1.5),
         least_fraction=0.3,
-        most_growth=150.0,
+        most_growth=100.0,
         reason=FEW,
     ),
     Case(name="a million particles", domain=square(1400.0), efforts=(PLAIN,), seeds=1),
